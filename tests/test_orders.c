@@ -333,7 +333,8 @@ TEST(test_headings)
 /* No verdict on a mesh whose dimension nobody stated. */
 TEST(test_assumed_dimension)
 {
-    struct br_order_expectation e = {"e", BR_AXIS_SPACE, 2, 0.1, 0, 0};
+    struct br_order_expectation e = {
+        .quantity = "e", .axis = BR_AXIS_SPACE, .order = 2, .tolerance = 0.1};
     struct br_orders_request q = {.path = (char *)"t.csv",
                                   .table = (char *)"dofs,e\n8,16\n64,4\n512,1\n",
                                   .expectation = &e,
@@ -1227,6 +1228,8 @@ TEST(test_verdicts)
                       gap[] = "h,l2\n1,1\n.5,.25\n.25,\n.125,.015625\n.0625,.00390625\n",
                       gaps[] = "h,l2\n1,1\n.5,.25\n.25,\n.125,.015625\n.0625,-\n",
                       drag[] = "h,u\n1,4\n.5,2\n.25,1.5\n.125,1.375\n.0625,1.34375\n";
+    static const char spectral[] = "n,l2\n2,.01562\n3,.001953\n4,2.441e-4\n5,3.052e-5\n"
+                                   "6,3.815e-6\n7,4.768e-7\n";
     char line[1024], grid[4096], floor[4096];
     strcpy(line, table_of(5, 0, 2, 0));
     strcpy(grid, table_of(5, 5, 2, 1));
@@ -1250,6 +1253,10 @@ TEST(test_verdicts)
         {floor, NULL, "l2: h 2 +- 0.1 down to 1e-3", BR_PASS, ""},
         {floor, NULL, "l2: h 3 +- 0.1 down to 1e-3", BR_FAIL, ""},
         {near_floor, NULL, "l2: h 2 +- 0.1 down to .004", BR_PASS, ""},
+        {spectral, NULL, "l2: h exponential 8 +- 0.5", BR_PASS, ""},
+        {spectral, NULL, "l2: h exponential 9 +- 0.5", BR_FAIL, "one more of 1/h divides"},
+        {spectral, NULL, "l2: h 4 +- 0.5", BR_FAIL, "the errors fall exponentially, by no order"},
+        {line, NULL, "l2: h exponential 8 +- 0.5", BR_FAIL, "their order is 2.00"},
         {drag, "u", "u: h 2 +- 0.1", BR_PASS, ""},
         {line, NULL, "l3: h 2 +- .1", REFUSED_ONE,
          "t.csv: an order of 'l3' is expected, and there is no such column"},

@@ -156,7 +156,8 @@ enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
     if (limit->sequence != BR_SEQUENCE_UNKNOWN && found.converges >= sure &&
         isfinite(found.left.value))
         limit->value = limit_of(v, count, &found, turns);
-    if (agree(v, count) || (limit->sequence != BR_MONOTONE_CONVERGENCE && agree(v + count - 3, 3)))
+    const bool falls = limit->sequence == BR_MONOTONE_CONVERGENCE || found.converges > 0.5;
+    if (agree(v, count) || (!falls && agree(v + count - 3, 3)))
         *limit = (struct br_grid_limit){
             {finest, finest - half, finest + half}, NAN, BR_SEQUENCE_SCATTER};
     return BR_OK;

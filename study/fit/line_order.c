@@ -11,7 +11,6 @@
  * that nothing explains. The order is the mixture of all these distributions. */
 #include "study/fit/line_order.h"
 
-#include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -34,6 +33,7 @@ struct rows {
     double *least;         /* the smallest standard deviation in a window that begins here */
     double *noise;         /* log of the density of all rows behind this one, if they are noise */
     double *error;         /* log e */
+    double *log_gamma;     /* by degrees of freedom, of half of them */
     double *other;         /* x of the exponential law */
     double *behind_x, *behind_y; /* means of x, and of y by a law, of all rows behind this one */
 };
@@ -128,7 +128,8 @@ struct mixture {
     double far;    /* of values: x of the finest one; NaN: they are errors */
     double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
     double prior;  /* logarithm of that of the scatter */
-    bool few;      /* of two differences: their order is its prior alone */
+    const double *log_gamma; /* by degrees of freedom, of half of them */
+    bool few;                /* of two differences: their order is its prior alone */
     bool only_best, starved;
 };
 
@@ -372,9 +373,10 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
     p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
-    p.weight += all->few ? log_prior_of_order(p.mean)
-                         : gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
-                               log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    p.weight += all->few
+                    ? log_prior_of_order(p.mean)
+                    : all->log_gamma[s->rows - 2 - curved] - freedom / 2 * log(M_PI * squares) -
+                          log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
     if (isfinite(all->far)) {
         find_left(all->far, s, variance, xx, xy / xx, &p);
         p.own = br_priors.shared * sqrt((scatter + least * least * all->finest) / all->finest);
@@ -390,13 +392,21 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
 static void add_without_one(struct mixture *all, const struct rows *r, const struct sums *s,
                             struct part p, double least)
 {
+    static const double outside = 0.25; /* one that makes less of the misfit is none */
     enum { LEAST = 5, MOST = 16 };
     const size_t inside = p.last - p.first - 1;
     if (s->rows < LEAST || r->count > MOST || (p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT))
         return;
+    const double middle = s->x / s->w, xx = s->xx - middle * s->x, xy = s->xy - middle * s->y,
+                 left = s->yy - s->y * s->y / s->w - xy * xy / xx;
     p.weight += log(br_priors.unexplained * br_priors.leaves_inside / (double)inside);
     for (p.outlier = p.first + 1; p.outlier < p.last; p.outlier++) {
+        const double x = r->x[p.outlier];
+        const double off =
+            r->bent[p.outlier] - s->start - s->order * x - s->y / s->w - xy / xx * (x - middle);
         struct sums without = *s;
+        if (s->unit == 0 && r->weight[p.outlier] * off * off < outside * left)
+            continue;
         add_row(&without, r, p.outlier, -1);
         add_window(all, &without, p, least);
     }
@@ -626,7 +636,8 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
                             .only_best = true,
                             .far = all->far,
                             .few = all->few,
-                            .finest = all->finest};
+                            .finest = all->finest,
+                            .log_gamma = all->log_gamma};
     double best[BR_FAMILIES][MOST_CELLS];
     all->prior = log_prior;
     add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
@@ -742,8 +753,7 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
         found->low99 = quantile(all, 0.005);
         found->high99 = quantile(all, 0.995);
     }
-    found->converges =
-        exponential ? 1 : 1 - probability_below(all, all->few ? 0.2 : surely_falls);
+    found->converges = exponential ? 1 : 1 - probability_below(all, all->few ? 0.2 : surely_falls);
     found->diverges = exponential ? 0 : probability_below(all, 0);
     for (size_t i = 0; i < all->count; i++) { /* differences that stay make a logarithm */
         const enum br_law law = all->part[i].law;
@@ -762,7 +772,7 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 16 };
+    enum { ARRAYS = 17 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
                                     .rate = {NAN, NAN, NAN},
                                     .power = NAN,
@@ -777,9 +787,10 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
         struct rows r = {.index = index, .z = room};
-        double **const array[] = {&r.x,           &r.y,     &r.ratio,    &r.bent,     &r.weight,
-                                  &r.log_density, &r.least, &r.given,    &r.curve,    &r.rounded,
-                                  &r.noise,       &r.other, &r.behind_x, &r.behind_y, &r.error};
+        double **const array[] = {&r.x,        &r.y,           &r.ratio, &r.bent,
+                                  &r.weight,   &r.log_density, &r.least, &r.given,
+                                  &r.curve,    &r.rounded,     &r.noise, &r.other,
+                                  &r.behind_x, &r.behind_y,    &r.error, &r.log_gamma};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, count);
@@ -789,6 +800,9 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
         all.few = r.count == 2 && isfinite(all.far);
         if ((r.count >= 3 || all.few) && isfinite(r.order)) {
             take_noise(&r);
+            for (size_t i = 1; i < r.count; i++)
+                r.log_gamma[i] = lgamma((double)i / 2);
+            all.log_gamma = r.log_gamma;
             const double absolute = isfinite(all.far) && !all.few ? br_priors.absolute : 0;
             all.finest = 1;
             add_laws(&all, &r, log(1 - absolute));

@@ -33,7 +33,7 @@ static bool take_number(const char **at, double *value)
     return true;
 }
 
-/* "h 2 +- 0.1 down to 1e-9" */
+/* "h 2 +- 0.1 down to 1e-9", "h exponential 8 +- 0.5" */
 static enum br_status take_order(const char **at, struct br_order_expectation *e,
                                  struct br_error *err)
 {
@@ -43,8 +43,9 @@ static enum br_status take_order(const char **at, struct br_order_expectation *e
             e->axis = (enum br_axis)axis;
     if (e->axis == BR_AXES)
         return refuse(*at, "h or k", err);
-    if (!take_number(at, &e->order))
-        return refuse(*at, "an order above 0", err);
+    e->exponential = takes(at, "exponential");
+    if (!take_number(at, &e->order) || (e->exponential && !(e->order > 1)))
+        return refuse(*at, e->exponential ? "a factor above 1" : "an order above 0", err);
     if (!takes(at, "+-") && !takes(at, "\u00b1"))
         return refuse(*at, "'+-'", err);
     if (!take_number(at, &e->tolerance) || !(e->tolerance < e->order))
@@ -106,6 +107,7 @@ static void expect(struct br_case *c, const struct br_order_expectation *e)
     c->expected.order = e->order;
     c->expected.tolerance = e->tolerance;
     c->expected.line = e->line;
+    c->exponential = e->exponential;
     c->down_to = e->down_to;
 }
 

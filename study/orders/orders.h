@@ -233,7 +233,8 @@ const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, 
 struct br_order_expectation {
     char quantity[64];
     enum br_axis axis;
-    double order, tolerance;
+    double order, tolerance; /* or, of exponential convergence, what one more of 1/z divides by */
+    bool exponential;
     double down_to; /* the expected level at which errors stop falling; 0: none */
     size_t line;    /* in a study file; 0: none */
 };

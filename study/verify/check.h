@@ -47,6 +47,7 @@ struct br_case {
     bool may_miss; /* a point without a number is left out by name; else it fails the case */
     struct br_estimate order;
     double low99, high99;      /* the order's 99 % interval: what lies outside is excluded */
+    bool exponential; /* `expected` is not an order, but what the factor below is to be */
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */

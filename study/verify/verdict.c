@@ -238,7 +238,7 @@ static bool blows_up(const struct br_case *c)
     double largest = 0;
     for (size_t i = 0; i < c->points; i++)
         largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
-    return c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
+    return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
 }
 
 static void judge_beyond(struct br_case *c, const struct br_point *first)
@@ -347,6 +347,27 @@ static bool falls_by_two(const struct br_case *c, double low, double high)
     return rates >= 2 && c->expected.highest > c->expected.order;
 }
 
+/* Exponential convergence has no order, and an order is no such convergence. */
+static void judge_factor(struct br_case *c)
+{
+    const double low = c->expected.order - c->expected.tolerance,
+                 high = c->expected.order + c->expected.tolerance;
+    const struct br_estimate *f = &c->factor;
+    char text[64];
+    c->margin = fmin(f->low - low, high - f->high);
+    if (f->low >= low && f->high <= high)
+        conclude(c, BR_PASS, "%s", "");
+    else if (isfinite(f->value))
+        conclude(c, f->high < low || f->low > high ? BR_FAIL : BR_INCONCLUSIVE,
+                 "one more of 1/%s divides the errors by %s, expected %.4g to %.4g",
+                 c->kind == BR_VERIFY_TIME ? "k" : "h", br_order_text(f, text, sizeof text), low,
+                 high);
+    else
+        conclude(c, br_order_determined(&c->order) ? BR_FAIL : BR_INCONCLUSIVE,
+                 "the errors do not fall exponentially; their order is %s",
+                 br_order_text(&c->order, text, sizeof text));
+}
+
 static void judge_order(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
@@ -363,7 +384,12 @@ static void judge_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
-    } else
+    } else if (isfinite(c->factor.value))
+        conclude(c, BR_FAIL,
+                 "the errors fall exponentially, by no order: one more of 1/%s divides them by %s",
+                 c->kind == BR_VERIFY_TIME ? "k" : "h",
+                 br_order_text(&c->factor, text, sizeof text));
+    else
         conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
                  c->point[0].error, c->point[c->points - 1].error);
 }
@@ -410,6 +436,12 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     if (c->law)
         br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
                   c->law);
+    if (isfinite(c->factor.value)) {
+        char text[64];
+        br_append(c->note, sizeof c->note, ": one more of 1/%s divides them by %s",
+                  c->kind == BR_VERIFY_TIME ? "k" : "h",
+                  br_order_text(&c->factor, text, sizeof text));
+    }
     note_drift(c);
     return status;
 }
@@ -448,7 +480,7 @@ void br_case_judge(struct br_case *c)
     } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
         judge_too_few(c);
     else {
-        judge_order(c);
+        (c->exponential ? judge_factor : judge_order)(c);
         judge_constant(c);
     }
     if (c->verdict == BR_INCONCLUSIVE)
