@@ -229,6 +229,16 @@ static void set_deviations(const struct search *s, struct candidate *c, const in
     }
 }
 
+/* Whether the search for an order went to that of a floor, beside another error or with a law. */
+static bool ends_at_a_floor(const struct br_joint_trial *t)
+{
+    int unknown[BR_UNKNOWNS];
+    bool ends = false;
+    for (int a = 0; a < BR_AXES; a++)
+        ends |= br_joint_has(t->law.kind, a) && t->value[ORDER(a)] < 1.001 * br_priors.least_order;
+    return ends && br_joint_unknowns(&t->law, unknown) > 2;
+}
+
 /* Adds the fit of a law to the window, from the best of these starts. */
 static struct candidate *add_candidate(struct search *s, const struct br_joint_law *law,
                                        const double (*start)[BR_UNKNOWNS], size_t starts)
@@ -245,7 +255,7 @@ static struct candidate *add_candidate(struct search *s, const struct br_joint_l
         if (t.sum < c->trial.sum)
             c->trial = t;
     }
-    if (!isfinite(c->trial.sum))
+    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial))
         return NULL;
     const size_t unknowns = br_joint_unknowns(law, unknown);
     const double free = c->trial.weight - (double)unknowns;

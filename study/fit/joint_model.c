@@ -82,11 +82,10 @@ static double correlation(const struct br_joint_law *law, const double v[BR_UNKN
  * falls by more than this. */
 static const double most_order = 30;
 
-static bool allowed(const struct br_joint_cells *cells, const struct br_joint_law *law,
-                    const double v[BR_UNKNOWNS])
+static bool allowed(const struct br_joint_law *law, const double v[BR_UNKNOWNS])
 {
     const bool alone = law->kind != BR_JOINT_BOTH && !law->of[0] && !law->of[1] && !law->floor;
-    const double least = cells->priors && !alone ? br_priors.least_order : 0;
+    const double least = alone ? 0 : br_priors.least_order;
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_family *f = law->of[a];
         const double order = v[OF(a, BR_ORDER)], shape = v[OF(a, BR_SHAPE)];
@@ -234,7 +233,7 @@ static double evaluate(struct br_joint_cells *cells, const struct br_joint_law *
                        struct system *s, const double v[BR_UNKNOWNS])
 {
     double sum = 0, all[BR_UNKNOWNS];
-    if (!allowed(cells, law, v) || br_observer_stops(cells->observer))
+    if (!allowed(law, v) || br_observer_stops(cells->observer))
         return INFINITY;
     for (int a = 0; a < BR_AXES; a++)
         fill_axis(cells, law, v, a);
