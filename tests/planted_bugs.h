@@ -1637,7 +1637,7 @@ static const struct planted_bug planted_bugs[] = {
     {"any_solver_may_refuse", "verdict", "study/extremes/floors.c", "tests/test_floors test_floors",
      "(assembled || f->refused.status == BR_BAD_INPUT)", "f->refused.status"},
     {"formal_order_ignored", "lost", "study/library/study.c",
-     "tests/test_library_calls formal_order_widens_the_limit",
+     "tests/test_library_calls limit_of_values",
      "br_orders_find(&o->numbers, from->formal,", "br_orders_find(&o->numbers, 2,"},
     {"residuals_on_a_logarithmic_axis", "default", "plots/convergence.c",
      "tests/test_figure test_stored", "    p->log_y = false;\n", ""},

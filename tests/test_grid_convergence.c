@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Limits and uncertainties of values on finer and finer grids: published examples, exact power
- * laws, and an independent least squares in long double. */
+ * laws, random sequences, means. */
 #include "study/fit/limits.h"
 
 #include <float.h>

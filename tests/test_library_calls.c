@@ -589,7 +589,7 @@ TEST(orders_of_a_table)
         assert_string_equal(answer.quantity, i ? "v" : "e");
         assert_int_equal(answer.values, i);
         assert_int_equal(answer.refined, 1);
-        CLOSE(answer.order.value, i ? 1 : 2, 1e-5); /* of few digits */
+        CLOSE(answer.order.value, i ? 1 : 2, 1e-4); /* of few digits */
         assert_string_equal(answer.open, "");
         assert_int_equal(beamrate_orders_answer(orders, i, BEAMRATE_TIME, &answer), 1);
         assert_true(!answer.refined && isnan(answer.order.value));
@@ -597,7 +597,7 @@ TEST(orders_of_a_table)
             assert_int_equal(beamrate_orders_point(orders, i, BEAMRATE_SPACE, at, &point), 1);
             CLOSE(point.size, 0.2 / (double)(1 << at), 1e-12);
             CLOSE(point.error, i ? point.size / 2 : 3 * point.size * point.size, 1e-12);
-            CLOSE(point.fit.value, point.error, 1e-5 * point.error);
+            CLOSE(point.fit.value, point.error, 1e-4 * point.error);
             assert_true(point.fit.low <= point.fit.value && point.fit.value <= point.fit.high);
             assert_string_equal(point.left_out, "");
             if (at > 1)
@@ -685,7 +685,7 @@ TEST(used_numbers_are_counted)
     assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
     assert_int_equal(order.points, 8);
     assert_int_equal(order.used, 6);
-    CLOSE(order.constant, 1, 1e-4);
+    CLOSE(order.constant, 1, 0.01); /* of the observed order, whose interval the floor widens */
     WORKS(beamrate_orders_check(&check, orders, &expected, 1, &failure));
     WORKS(beamrate_check_case(check, 0, &c));
     assert_int_equal(c.points, order.points);
@@ -696,13 +696,11 @@ TEST(used_numbers_are_counted)
     beamrate_orders_free(orders);
 }
 
-/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2.
- */
-TEST(formal_order_widens_the_limit)
+/* Values of order 3: their limit, which does not depend on what theory says. */
+TEST(limit_of_values)
 {
     static const double h[] = {16, 8, 4, 2, 1}, formal[] = {2, 4, 0};
     static const double value[] = {7 + 4096.1, 7 + 511.9, 7 + 64.1, 7 + 7.9, 7 + 1};
-    double half[3];
     for (size_t i = 0; i < 3; i++) {
         const struct beamrate_numbers numbers = {
             .h = h, .number = value, .count = 5, .values = 1, .formal = formal[i]};
@@ -710,11 +708,14 @@ TEST(formal_order_widens_the_limit)
         struct beamrate_order order;
         WORKS(beamrate_orders_find(&orders, &numbers, &failure));
         assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
-        half[i] = order.limit.high - order.limit.low;
+        CLOSE(order.limit.value, 7, 0.2);
+        assert_true(order.limit.low <= 7 && 7 <= order.limit.high);
         beamrate_orders_free(orders);
     }
-    assert_true(half[0] > 1.5 * half[1]);
-    CLOSE(half[2], half[0], 0);
+    const struct beamrate_numbers wrong = {
+        .h = h, .number = value, .count = 5, .values = 1, .formal = 0.5};
+    struct beamrate_orders *none;
+    ENDS(beamrate_orders_find(&none, &wrong, &failure), BEAMRATE_BAD_INPUT, "formal order is 0.5");
 }
 
 /* ---- what is no handle, no index, no number ---- */

@@ -583,8 +583,11 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
 static void add_exponentials(struct mixture *all, const struct rows *r)
 {
     static const double powers[] = {1, 0.5, 1. / 3};
+    static const double range =
+        2.4; /* of n; within less, a power with a next term looks the same */
     const size_t n = r->count, middle = n / 2, least = isfinite(all->far) ? 5 : 4;
-    for (size_t k = 0; k < sizeof powers / sizeof *powers && n >= least; k++) {
+    const bool shows = n >= least && r->z[0] >= range;
+    for (size_t k = 0; k < sizeof powers / sizeof *powers && shows; k++) {
         struct rows e = *r;
         e.x = r->other;
         for (size_t i = 0; i < n; i++) {

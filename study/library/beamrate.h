@@ -352,8 +352,7 @@ struct beamrate_order {
     struct beamrate_estimate order;
     double constant;     /* C of e = C h^order, or k^order; of values: of their differences */
     size_t points, used; /* all points, and those that are not at a floor */
-    struct beamrate_estimate limit; /* of values: the least-squares limit (Eca and Hoekstra 2014),
-                                       or the grid convergence index of three (Celik et al. 2008) */
+    struct beamrate_estimate limit; /* of values: their limit, by the same mixture of laws */
 };
 
 /* Finds the orders. *orders (out): owned by the caller. Fails with BEAMRATE_BAD_INPUT if a size is
