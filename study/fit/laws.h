@@ -62,7 +62,7 @@ extern const struct br_family br_families[BR_FAMILIES];
     X(leaves_inside, 0.05, "a row inside is an outlier")                                           \
     X(usual_scatter, 0.15, "errors of a computation rarely scatter by more")                       \
     X(least_scatter, 1e-7, "no law describes logarithms of errors better than that")               \
-    X(least_curved, 3e-4, "nor one with two corrections: more terms always fit")                   \
+    X(least_curved, 5e-4, "nor one with two corrections: more terms always fit")                   \
     X(absolute, 0.25, "the scatter of values is the same on all rows, not relative")               \
     X(values_stay, 0.1, "differences of values stay: the share of the prior of a floor of errors") \
     X(shared, 1.3, "neighbouring differences share a value: their scatter is not independent")     \
