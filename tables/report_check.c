@@ -36,7 +36,7 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
 {
     static const enum br_outcome outcomes[] = {BR_OUTCOME_PASS, BR_OUTCOME_FAIL,
                                                BR_OUTCOME_INCONCLUSIVE};
-    char name[NAME], at[NAME], against[NAME];
+    char name[NAME], at[NAME], against[NAME], constant[40];
     br_put_verdict(d, &(struct br_document_verdict){
                           .outcome = outcomes[c->verdict],
                           .group = check->name,
@@ -56,12 +56,14 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
         }
         snprintf(against, sizeof against, "n = %zu, k = T/%zu", p->against.n, p->against.steps);
         snprintf(at, sizeof at, "n = %zu, k = T/%zu", p->at.n, p->at.steps);
-        br_put_verdict_detail(d, "%s against %s: error %.4e, constant %.4e%s%s",
-                              p->at.n ? at : p->label,
+        *constant = '\0';
+        if (!isnan(p->constant))
+            snprintf(constant, sizeof constant, ", constant %.4e", p->constant);
+        br_put_verdict_detail(d, "%s against %s: error %.4e%s%s%s", p->at.n ? at : p->label,
                               p->against.n       ? against
                               : p->z_against > 0 ? "the next finer one"
                                                  : "the solution",
-                              p->error, p->constant,
+                              p->error, constant,
                               p->flag    ? ", left out: "
                               : !p->used ? ", coarser than the errors that are used"
                                          : "",

@@ -155,6 +155,7 @@ enum br_status br_orders_joint_case(const struct br_orders *o, const struct br_q
         c->points += at == c->points;
         *p = (struct br_point){.z = z_of(n, i, axis),
                                .error = n->row[i].number[of->quantity],
+                               .constant = NAN, /* the error has a part of the other axis */
                                .rounding = br_orders_rounding(o, of->quantity, &n->row[i])};
         br_numbers_name(n, &n->row[i], axis, p->label);
     }
