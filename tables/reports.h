@@ -14,7 +14,6 @@ struct br_finding;
 struct br_floors;
 struct br_old_check;
 struct br_orders;
-struct br_plan;
 struct br_prediction;
 struct br_report;
 struct br_run_report;
@@ -78,15 +77,17 @@ void br_report_check(const struct br_check_findings *findings, struct br_documen
 extern const struct br_document_format *const br_check_formats[];
 
 /* Reads the JSON of an earlier check, as br_report_check has it, for a comparison. Fails with
- * BR_BAD_INPUT, naming the file and what is wrong with it, or BR_NO_MEMORY; clear `old` even then. */
+ * BR_BAD_INPUT, naming the file and what is wrong with it, or BR_NO_MEMORY; clear `old` even then.
+ */
 enum br_status br_check_read_json(const char *path, struct br_old_check *old, struct br_error *err);
 
-/* ---- trade, split, plan ---- */
+/* ---- trade, split ---- */
 
 /* One scene: the cheapest way to each error, the seconds that each method takes to it, the Pareto
- * front, and for programs all trials. The document has the name of the scene. */
-void br_report_trade(const struct br_trade *trade, const struct br_provenance *provenance,
-                     struct br_document *d);
+ * front, and for programs all trials; with a goal the way to take, and the best of each method. The
+ * document has the name of the scene. scene_word: the scene as on the command line. */
+void br_report_trade(const struct br_trade *trade, const char *scene_word,
+                     const struct br_provenance *provenance, struct br_document *d);
 
 /* Several scenes in one norm: the cheapest ways alone. The document is named BR_SUMMARY. */
 #define BR_SUMMARY "summary"
@@ -96,11 +97,6 @@ void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
 /* The sources of the errors of `count` runs of one scene. The document is named <scene>-split. */
 void br_report_split(const struct br_split *split, size_t count,
                      const struct br_provenance *provenance, struct br_document *d);
-
-/* The proposal of a plan, what was predicted and achieved, and the quality of its models. The
- * document is named <scene>-plan. scene_word: the scene as on the command line. */
-void br_report_plan(const struct br_plan *plan, const char *scene_word,
-                    const struct br_provenance *provenance, struct br_document *d);
 
 /* ---- extremes, one for each experiment: without provenance ---- */
 
