@@ -240,10 +240,8 @@ static enum br_status run_all(struct run *r, struct br_error *err)
     }
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
-        br_warn_of_trials(t->request.scene, t->trial, br_trade_has_goal(t) ? 0 : t->count);
-    }
-    for (size_t i = 0; i < r->items; i++) {
-        const struct br_trade *t = &r->item[i].trade;
+        if (!br_trade_has_goal(t))
+            br_warn_of_trials(t->request.scene, t->trial, t->count);
         if (run_one(r, &r->item[i], err))
             return err->status;
         br_warn_of_trials(t->request.scene, &t->trial[t->chosen], t->chosen < t->count);

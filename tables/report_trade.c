@@ -328,9 +328,9 @@ void br_report_trade(const struct br_trade *t, const char *scene_word,
 
     br_hide_fact(d, br_text(t->request.scene->name), NULL, "scene.name");
     if (br_trade_has_goal(t)) {
-        const bool by_error = t->goal.error > 0;
-        br_hide_fact(d, br_if(by_error, br_number(t->goal.error)), NULL, "goal_error");
-        br_hide_fact(d, br_if(!by_error, br_number(t->goal.seconds)), NULL, "goal_seconds");
+        br_hide_fact(d, br_if(t->goal.error > 0, br_number(t->goal.error)), NULL, "goal_error");
+        br_hide_fact(d, br_if(t->goal.seconds > 0, br_number(t->goal.seconds)), NULL,
+                     "goal_seconds");
         br_hide_fact(d, br_if(t->chosen < t->count, br_count(t->chosen)), NULL, "chosen");
     }
     br_hide_fact(d, br_text(t->request.norm->name), NULL, "norm");

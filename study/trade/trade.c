@@ -53,7 +53,9 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
     return best;
 }
 
-/* ---- choosing for a goal ---- */
+/* Errors that differ by less count as equal: those of two linear solvers differ in the last bits.
+ */
+static const double tie = 1e-6;
 
 /* Seconds of two trials that differ by less may change places when they are measured again. */
 static const double scatter = 0.1;
@@ -86,16 +88,10 @@ size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
                                         (1 + scatter) * br_trial_seconds(&trial[best])};
     for (size_t i = 0; i < count; i++)
         if ((!only || trial[i].named == only) && reaches(&trial[i], &equal) &&
-            br_trial_bound(&trial[i]) < br_trial_bound(&trial[best]))
+            (1 + tie) * br_trial_bound(&trial[i]) < br_trial_bound(&trial[best]))
             best = i;
     return best;
 }
-
-/* ---- the Pareto front ---- */
-
-/* Errors that differ by less count as equal: those of two linear solvers differ in the last bits.
- */
-static const double tie = 1e-6;
 
 /* Whether b is better than a; of equals the earlier is better. */
 static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
@@ -132,7 +128,8 @@ static void choose(struct br_trade *t)
 
 /* ---- searching for a goal ---- */
 
-/* The most that a further trial may take, s: as much as the best one where an error is the goal. */
+/* The most that a further trial may take, s; what is around the best one of an error may take as
+ * much. */
 static double allowed_seconds(const struct br_trade *t)
 {
     const double limit = t->request.time_limit > 0 ? t->request.time_limit : INFINITY;
@@ -142,21 +139,13 @@ static double allowed_seconds(const struct br_trade *t)
     return best < t->count ? fmin(limit, br_trial_seconds(&t->trial[best])) : limit;
 }
 
-/* Expected seconds: those of the complete trial of the same method that has the nearest work, times
- * the ratio of their works; 0: no trial of the method is complete. */
+/* By those of the last trial of the method that is complete; 0: there is none. */
 static double expected_seconds(const struct br_trade *t, const struct br_trial *trial)
 {
-    const double work = br_trial_work(t->request.scene, trial);
-    double nearest = INFINITY, seconds = 0;
-    for (const struct br_trial *o = t->trial; o < t->trial + t->count; o++) {
-        if (o->named != trial->named || !(br_trial_seconds(o) > 0))
-            continue;
-        const double ratio = work / br_trial_work(t->request.scene, o);
-        if (fabs(log(ratio)) < nearest) {
-            nearest = fabs(log(ratio));
-            seconds = br_trial_seconds(o) * ratio;
-        }
-    }
+    double seconds = 0;
+    for (const struct br_trial *o = t->trial; o < t->trial + t->count; o++)
+        if (o->named == trial->named && br_trial_seconds(o) > 0)
+            seconds = br_trial_seconds(o) * trial->foreseen / o->foreseen;
     return seconds;
 }
 
@@ -175,11 +164,16 @@ static enum br_status check_reference(const struct br_trade *t, struct br_error 
                    t->goal.error, own, br_flag_margin * own);
 }
 
-static int by_foreseen(const void *a, const void *b)
+/* By work, then in the order of the list. */
+static int by_work(const void *a, const void *b)
 {
     const struct br_trial *x = a, *y = b;
-    return (x->foreseen > y->foreseen) - (x->foreseen < y->foreseen);
+    const int work = (x->foreseen > y->foreseen) - (x->foreseen < y->foreseen);
+    return work ? work : (x->named > y->named) - (x->named < y->named);
 }
+
+/* The cheapest trial of a method on the grid may take so many times as much as one around it. */
+static const double coarse = 4;
 
 /* From the cheapest trials on, in waves of at most three times the work of their first trial. What
  * is expected to take too long when its wave comes is dropped. */
@@ -189,11 +183,12 @@ static enum br_status run_waves(struct br_trade *t, struct br_error *err)
     enum br_status status = BR_OK;
     for (size_t i = 0; i < all; i++)
         t->trial[i].foreseen = br_trial_work(t->request.scene, &t->trial[i]);
-    qsort(t->trial, all, sizeof *t->trial, by_foreseen);
+    qsort(t->trial, all, sizeof *t->trial, by_work);
     t->count = 0;
     for (size_t next = 0; next < all && !status;) {
         const size_t done = t->count;
-        const double allowed = allowed_seconds(t), most = 3 * t->trial[next].foreseen;
+        const double most = 3 * t->trial[next].foreseen;
+        const double allowed = (t->goal.error > 0 ? coarse : 1) * allowed_seconds(t);
         for (; next < all && t->trial[next].foreseen <= most; next++)
             if (expected_seconds(t, &t->trial[next]) <= allowed)
                 t->trial[t->count++] = t->trial[next];
@@ -202,16 +197,6 @@ static enum br_status run_waves(struct br_trade *t, struct br_error *err)
             status = check_reference(t, err);
     }
     return status;
-}
-
-/* Adds a trial unless it is there, or is expected to take too long. */
-static void add_finer(struct br_trade *t, const struct br_trial *trial)
-{
-    for (size_t i = 0; i < t->count; i++)
-        if (br_trials_same(&t->trial[i], trial))
-            return;
-    if (expected_seconds(t, trial) <= 1.5 * allowed_seconds(t))
-        t->trial[t->count++] = *trial;
 }
 
 /* The trial so many places from another one: meshes are in factors of the square root of two, steps
@@ -232,37 +217,40 @@ static struct br_trial beside(const struct br_trial *b, int mesh, int step)
     return trial;
 }
 
-/* From about the coarser neighbour of a trial to one that is finer than the trial. */
-enum { COARSER = 4, AROUND = (COARSER + 2) * (COARSER + 2), REFINED = 2 /* methods */ };
+/* Adds trials around trial `best` that are not there and are expected not to take too long: from
+ * about its coarser neighbour to one that is finer than it or, if seconds are the goal, from one
+ * that is coarser to about its finer neighbour. */
+enum { PLACES = 6, AROUND = PLACES * PLACES };
 static void add_around(struct br_trade *t, size_t best)
 {
-    const struct br_trial b = t->trial[best];
-    for (int i = t->finer_n ? -COARSER : 0; i <= t->finer_n; i++)
-        for (int j = t->finer_steps ? -COARSER : 0; j <= t->finer_steps; j++) {
-            const struct br_trial trial = beside(&b, i, j);
-            add_finer(t, &trial);
+    const double allowed = 1.5 * allowed_seconds(t);
+    const int last = t->goal.error > 0 ? 1 : PLACES - 2, first = last - PLACES + 1;
+    for (int i = t->finer_n ? first : 0; i <= (t->finer_n ? last : 0); i++)
+        for (int j = t->finer_steps ? first : 0; j <= (t->finer_steps ? last : 0); j++) {
+            struct br_trial trial = beside(&t->trial[best], i, j);
+            size_t same = 0;
+            trial.foreseen = br_trial_work(t->request.scene, &trial);
+            while (same < t->count && !br_trials_same(&t->trial[same], &trial))
+                same++;
+            if (same == t->count && expected_seconds(t, &trial) <= allowed)
+                t->trial[t->count++] = trial;
         }
 }
 
-/* The best trials of the two best methods, and what is around them. */
+/* Around the best trials of the two best methods. */
 static enum br_status refine(struct br_trade *t, struct br_error *err)
 {
-    const size_t done = t->count;
-    const struct br_named_method *taken = NULL;
-    for (int method = 0; method < REFINED; method++) {
-        size_t best = done;
-        for (size_t m = 0; m < t->methods.count; m++) {
-            const struct br_named_method *named = &t->methods.list[m];
-            const size_t i = br_trials_for_goal(t->trial, done, &t->goal, named);
-            if (i < done && named != taken &&
-                (best == done || is_better(&t->trial[i], &t->trial[best], &t->goal)))
-                best = i;
-        }
-        if (best < done) {
-            taken = t->trial[best].named;
-            add_around(t, best);
-        }
-    }
+    const size_t done = t->count, best = br_trials_for_goal(t->trial, done, &t->goal, NULL);
+    size_t other = done;
+    if (best == done)
+        return BR_OK;
+    for (size_t i = 0; i < done; i++)
+        if (t->trial[i].named != t->trial[best].named && reaches(&t->trial[i], &t->goal) &&
+            (other == done || is_better(&t->trial[i], &t->trial[other], &t->goal)))
+            other = i;
+    add_around(t, best);
+    if (other < done)
+        add_around(t, other);
     return br_trials_run(t->trial + done, t->count - done, &t->request, err);
 }
 
@@ -404,7 +392,7 @@ enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *
     const struct br_trade_grid g = fill_in(*given, goal);
     const size_t levels = g.tolerances > g.step_count ? g.tolerances : g.step_count;
     const size_t printed = g.printed ? g.printed->count : 0;
-    const size_t finer = goal ? REFINED * AROUND : 0;
+    const size_t finer = goal ? 2 * AROUND : 0;
     const size_t most = t->methods.count * (g.n_count * levels + printed) + finer + 1;
     t->count = 0;
     t->finer_n = !given->n_count;
