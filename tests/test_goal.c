@@ -14,7 +14,7 @@
 
 /* As measured on a machine of today, once for all: set-up, and solves as if each had 700 elements
  * more; a change of the step costs six of them. */
-static const double set_up = 4e-5;
+static const double set_up = 8e-6;
 static double work(size_t n, double solves)
 {
     return 1.8e-9 * ((double)n + 700) * solves;
@@ -132,7 +132,7 @@ TEST(test_promise)
     static const double errors[] = {1e-3, 1e-5};
     for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++)
         for (size_t e = 0; e < sizeof errors / sizeof *errors; e++) {
-            if ((s + e) % 2 && !br_test_long())
+            if ((s + e) % 2 == 0 && !br_test_long())
                 continue;
             struct br_error err = {0};
             enum br_status status;

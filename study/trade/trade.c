@@ -128,8 +128,7 @@ static void choose(struct br_trade *t)
 
 /* ---- searching for a goal ---- */
 
-/* The most that a further trial may take, s; what is around the best one of an error may take as
- * much. */
+/* The most that a further trial may take, s: as much as the best one where an error is the goal. */
 static double allowed_seconds(const struct br_trade *t)
 {
     const double limit = t->request.time_limit > 0 ? t->request.time_limit : INFINITY;
@@ -172,9 +171,6 @@ static int by_work(const void *a, const void *b)
     return work ? work : (x->named > y->named) - (x->named < y->named);
 }
 
-/* The cheapest trial of a method on the grid may take so many times as much as one around it. */
-static const double coarse = 4;
-
 /* From the cheapest trials on, in waves of at most three times the work of their first trial. What
  * is expected to take too long when its wave comes is dropped. */
 static enum br_status run_waves(struct br_trade *t, struct br_error *err)
@@ -188,7 +184,7 @@ static enum br_status run_waves(struct br_trade *t, struct br_error *err)
     for (size_t next = 0; next < all && !status;) {
         const size_t done = t->count;
         const double most = 3 * t->trial[next].foreseen;
-        const double allowed = (t->goal.error > 0 ? coarse : 1) * allowed_seconds(t);
+        const double allowed = allowed_seconds(t);
         for (; next < all && t->trial[next].foreseen <= most; next++)
             if (expected_seconds(t, &t->trial[next]) <= allowed)
                 t->trial[t->count++] = t->trial[next];
