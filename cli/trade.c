@@ -9,6 +9,7 @@
 #include "cli/session.h"
 #include "cli/study_request.h"
 #include "plots/pictures.h"
+#include "study/base/quote.h"
 #include "study/base/words.h"
 #include "study/scene/file.h"
 #include "study/scene/units.h"
@@ -262,7 +263,9 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->items && !status; i++) {
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session->threads);
-        br_report_trade(trade[i], r->options->word[i], &provenance, &d[i]);
+        char words[2048];
+        br_quoted(words, sizeof words, &br_for_shell, r->options->word[i]);
+        br_report_trade(trade[i], words, &provenance, &d[i]);
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
             if (br_trade_picture_applies(*p, trade[i]))
                 br_session_draw(r->session, &d[i],

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "solver/scene.h"
-#include "study/base/quote.h"
 #include "study/trade/trade.h"
 #include "tables/report_parts.h"
 
@@ -197,23 +196,23 @@ static void answer_goal(struct br_document *d, const struct br_trade *t)
 }
 
 /* Command lines that repeat the chosen trial: its march, and its error and seconds. */
-static void put_commands(struct br_document *d, const struct br_trade *t, const char *scene_word)
+static void put_commands(struct br_document *d, const struct br_trade *t, const char *words)
 {
-    if (t->chosen == t->count)
+    enum { LONGEST = 1024 };
+    if (t->chosen == t->count || strlen(words) > LONGEST)
         return;
     const struct br_trial *best = &t->trial[t->chosen];
     const struct br_method method = br_trial_method(best);
     const bool usual = t->request.norm == br_norms[0];
-    char scene[1024], options[BR_METHOD_TEXT], step[64], line[2048];
-    br_quoted(scene, sizeof scene, &br_for_shell, scene_word);
-    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, best->at.n,
+    char options[BR_METHOD_TEXT], step[64], line[2 * LONGEST];
+    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", words, best->at.n,
              best->at.steps, br_method_options(t->request.scene, &method, options));
     br_put_command(d, "run", "To march it", line);
     if (best->named->method.scheme->adaptive)
         snprintf(step, sizeof step, "--tolerance %.15g", best->tolerance);
     else
         snprintf(step, sizeof step, "--k T/%zu", best->at.steps);
-    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,
+    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", words,
              best->named->name, best->at.n, step, usual ? "" : " --norm ",
              usual ? "" : t->request.norm->name);
     br_put_command(d, "trade", "To measure it again", line);
@@ -252,7 +251,7 @@ static void note_judge(struct br_document *d, const struct br_trade *t)
                     known->own / known->scale);
 }
 
-static void put_answers(struct br_document *d, const struct br_trade *t, const char *scene_word)
+static void put_answers(struct br_document *d, const struct br_trade *t, const char *words)
 {
     const char *between = "";
     if (br_trade_has_goal(t)) {
@@ -274,7 +273,7 @@ static void put_answers(struct br_document *d, const struct br_trade *t, const c
                       "Left out to save time, the most expensive first: %zu of %zu trials, about "
                       "%.0f s; --all tries all.",
                       t->forecast.left, t->count, t->forecast.left_seconds);
-    put_commands(d, t, scene_word);
+    put_commands(d, t, words);
 }
 
 static void put_methods(struct br_document *d, const struct br_trade *t)
@@ -295,13 +294,13 @@ static void put_methods(struct br_document *d, const struct br_trade *t)
     }
 }
 
-void br_report_trade(const struct br_trade *t, const char *scene_word,
+void br_report_trade(const struct br_trade *t, const char *words,
                      const struct br_provenance *provenance, struct br_document *d)
 {
     char caption[512];
     snprintf(caption, sizeof caption, "What a digit costs: %.400s", t->request.scene->title);
     br_document_begin(d, t->request.scene->name, "beamrate trade", 1, caption);
-    put_answers(d, t, scene_word);
+    put_answers(d, t, words);
     if (br_trade_has_goal(t)) {
         put_best_of_methods(d, t);
     } else {

@@ -85,8 +85,8 @@ enum br_status br_check_read_json(const char *path, struct br_old_check *old, st
 
 /* One scene: the cheapest way to each error, the seconds that each method takes to it, the Pareto
  * front, and for programs all trials; with a goal the way to take, and the best of each method. The
- * document has the name of the scene. scene_word: the scene as on the command line. */
-void br_report_trade(const struct br_trade *trade, const char *scene_word,
+ * document has the name of the scene. words: the scene on a command line. */
+void br_report_trade(const struct br_trade *trade, const char *words,
                      const struct br_provenance *provenance, struct br_document *d);
 
 /* Several scenes in one norm: the cheapest ways alone. The document is named BR_SUMMARY. */
