@@ -18,7 +18,7 @@
 #include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,
-    br_command_figures, br_command_help, br_command_orders, br_command_plan, br_command_run,
+    br_command_figures, br_command_help, br_command_orders, br_command_run,
     br_command_scenes, br_command_study, br_command_tables, br_command_trade;
 
 const struct br_command *const br_commands[] = {
@@ -28,7 +28,6 @@ const struct br_command *const br_commands[] = {
     &br_command_orders,
     &br_command_run,
     &br_command_trade,
-    &br_command_plan,
     &br_command_extremes,
     &br_command_figures,
     &br_command_scenes,

@@ -16,7 +16,6 @@ enum {
     BR_FOR_CHECK = 4,
     BR_FOR_RUN = 8,
     BR_FOR_TRADE = 16,
-    BR_FOR_PLAN = 32,
     BR_FOR_EXTREMES = 64,
     BR_FOR_FIGURES = 128,
     BR_FOR_SCENES = 256,

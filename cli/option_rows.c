@@ -96,8 +96,7 @@ static const struct br_option rows[] = {
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
      "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
-     .words = &br_judge_words,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
+     .words = &br_judge_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
      .more =
          "exact is the default; for a scene that was manufactured from a solution, it is mms. "
          "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is "
@@ -105,21 +104,18 @@ static const struct br_option rows[] = {
      OWN({BR_FOR_TABLES, .standard = "fine:12800,1e-5",
           .more = "The errors against the exact solution are shown, too."},
          {BR_FOR_TRADE, .more = "exact is the default; fine:N,K marches the scheme of the highest "
-                                "order."},
-         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K is not possible."})},
+                                "order, and is not possible with a goal."})},
     {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error", "l2", BR_TAKES_WORD_LIST,
-     .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
+     .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
      .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip.",
-     OWN({BR_FOR_TRADE, .more = "One norm; with --split, several."},
-         {BR_FOR_PLAN, .argument = "NAME", .kind = BR_TAKES_WORD})},
+     OWN({BR_FOR_TRADE, .more = "One norm; with --split, several."})},
     {BR_OPT_METHODS, "methods", 0, "LIST",
      "methods, by names like bdf2+implicit ('beamrate help methods')", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+     .commands = BR_FOR_TRADE | BR_FOR_EXTREMES,
      .more =
          "A name is made of words joined by +, in any order, at most one of a kind: a time scheme, "
          "a contact rule, a friction rule, a linear solver, p1 or p2 (the degree of the axial "
-         "elements): euler+lagged, bdf2+uzawa, bdf2+umfpack.",
-     OWN({BR_FOR_PLAN, .more = "By default all time schemes."})},
+         "elements): euler+lagged, bdf2+uzawa, bdf2+umfpack."},
     {BR_OPT_TOLERANCES, "tolerance", 0, "LIST", "tolerances of schemes that choose their steps",
      NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
     {BR_OPT_SPLIT, "split", 0, NULL,
@@ -135,12 +131,13 @@ static const struct br_option rows[] = {
          "parts over them."},
 
     /* what is wanted of numbers, what a march may take */
-    {BR_OPT_ERROR, "error", 0, "LIST",
-     "columns that are errors (default: all that fall as errors do)", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_ORDERS | BR_FOR_PLAN,
-     OWN({BR_FOR_PLAN, .argument = "E", .help = "largest relative error that is wanted",
-          .more = "The norm of the error, divided by the norm of the solution.",
-          .kind = BR_TAKES_NUMBER, .range = BETWEEN(0, 1)})},
+    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all that fall as errors do)",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS | BR_FOR_TRADE,
+     OWN({BR_FOR_TRADE, .argument = "E",
+          .help = "goal: the cheapest way to this relative error, like 1e-3 or 5%",
+          .more = "The norm of the error, divided by the norm of the solution. Without -n, -k, "
+                  "--steps, --tolerance and --methods all meshes, steps and time schemes are "
+                  "tried."})},
     {BR_OPT_VALUE, "value", 0, "LIST", "columns, or readings, whose limit is not known", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
     {BR_OPT_COLUMN, "column", 0, "LIST", "what columns are, by heading or position: dx=h,3=l2",
@@ -167,18 +164,16 @@ static const struct br_option rows[] = {
     {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1 +- 0.05; h1: h 1 +- 0.1'",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
-    {BR_OPT_SECONDS, "seconds", 0, "S", "longest time of a march, set-up included, s", NULL,
-     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE | BR_FOR_PLAN,
-     OWN({BR_FOR_TRADE, .standard = "10", .help = "seconds for all trials of a scene, about",
-          .more = "The most expensive trials are left out. If -n, -k, --steps or --tolerance "
-                  "choose the trials, nothing is left out unless this option is given."})},
+    {BR_OPT_SECONDS, "seconds", 0, "S",
+     "goal: the least error with so many seconds of a march, set-up included", NULL,
+     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
+     .more = "One of --error and --seconds, for one scene."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
-     NULL, BR_TAKES_NUMBER, BETWEEN(0, 1e10),
-     .commands = BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_ORDERS,
+     NULL, BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE | BR_FOR_ORDERS,
      OWN({BR_FOR_TRADE, .standard = "10",
           .more = "A run or march that will surely take longer is stopped early, and the report "
                   "says so."},
-         {BR_FOR_PLAN, .standard = "60"}, {BR_FOR_ORDERS, .standard = "600"})},
+         {BR_FOR_ORDERS, .standard = "600"})},
 
     /* what `run` shows */
     {BR_OPT_FIELDS, "fields", 0, "LIST",
@@ -204,7 +199,10 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
      .more = "Needed once for each study file with a command, and again when it has changed."},
     {BR_OPT_ALL, "all", 0, NULL, "all bundled scenes", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_CHECK},
+     .commands = BR_FOR_CHECK | BR_FOR_TRADE,
+     OWN({BR_FOR_TRADE, .help = "try all trials (default: what takes about 10 s a scene)",
+          .more = "The most expensive trials are left out, unless -n, -k, --steps or --tolerance "
+                  "choose the trials."})},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_JSON, "json", 0, "FILE", "all results, for programs and for --compare", NULL,
@@ -251,7 +249,7 @@ static const struct br_option rows[] = {
      "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,
      BR_TAKES_TEXT,
      .commands =
-         BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+         BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES,
      .more = "May be given several times. KEY is any key of the scene, with its section: length, "
              "friction.coefficient. It is added if the scene does not have it. VALUE is read as if "
              "it stood in the file. Of several scenes each has it.",
@@ -260,28 +258,26 @@ static const struct br_option rows[] = {
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
      BR_TAKES_DIR,
-     .commands =
-         MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
+     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      OWN({BR_FOR_TABLES | BR_FOR_STUDY, .standard = "results", .help = folder},
          {BR_FOR_TRADE, .standard = "trade", .help = folder},
          {BR_FOR_EXTREMES, .standard = "extremes", .help = folder},
          {BR_FOR_FIGURES, .standard = "figures", .help = folder})},
     {BR_OPT_FORMAT, "format", 0, "LIST", "formats to write (default: all)", NULL,
      BR_TAKES_WORD_LIST, .words = &br_format_words,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES |
-                 BR_FOR_ORDERS | BR_FOR_CHECK},
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS |
+                 BR_FOR_CHECK},
     {BR_OPT_NO_PLOTS, "no-plots", 0, NULL, "write no plots", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES |
                  BR_FOR_ORDERS},
     {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
      WHOLE(0, 4096),
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_PLAN |
-                 BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_EXTREMES |
+                 BR_FOR_FIGURES | BR_FOR_ORDERS,
      .more = "The results are the same for any number, to the bit."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
      BR_TAKES_FLAG,
-     .commands =
-         MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
+     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -9,7 +9,10 @@
 #include "cli/session.h"
 #include "cli/study_request.h"
 #include "plots/pictures.h"
+#include "study/base/quote.h"
+#include "study/base/words.h"
 #include "study/scene/file.h"
+#include "study/scene/units.h"
 #include "study/trade/split.h"
 #include "study/trade/trade.h"
 #include "tables/reports.h"
@@ -28,11 +31,15 @@ struct run {
     struct br_study_request study;
     struct item *item; /* items, one a scene; owned */
     size_t items;
+    struct br_trade_goal goal;
     struct br_split *split; /* splits, of --split; owned */
     size_t splits;
 };
 
 /* ---- what is tried ---- */
+
+/* All trials take about so many seconds, if neither a list nor --all asks for more. */
+static const double usual_seconds = 10;
 
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
@@ -46,8 +53,8 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->judge = r->study.judge;
     q->threads = r->session->threads;
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    if (!br_first_given(o, listed) || br_option_given(o, BR_OPT_SECONDS))
-        q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
+    if (!br_first_given(o, listed) && !br_option_given(o, BR_OPT_ALL))
+        q->seconds = usual_seconds;
     q->norm = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
         return BR_OK;
@@ -69,6 +76,18 @@ static const struct br_printed *printed_of(const struct item *item)
     return strcmp(path, item->opened.path) == 0 ? &br_printed_table2 : NULL;
 }
 
+/* Keeps the methods with the default solver and friction rule: the others are never cheaper. */
+static void keep_usual(struct br_named_methods *all)
+{
+    const struct br_method usual = br_method_default();
+    size_t kept = 0;
+    for (size_t i = 0; i < all->count; i++)
+        if (all->list[i].method.solver == usual.solver &&
+            all->list[i].method.friction == usual.friction)
+            all->list[kept++] = all->list[i];
+    all->count = kept;
+}
+
 static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
 {
     const struct br_options *o = r->options;
@@ -78,10 +97,13 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
         return err->status;
     if (br_asked_steps_make(&r->study.steps, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
+    item->trade.goal = r->goal;
     if (r->study.methods.count)
         item->trade.methods = r->study.methods;
     else
         br_named_methods_default(scene, &item->trade.methods);
+    if (!r->study.methods.count && br_trade_has_goal(&item->trade))
+        keep_usual(&item->trade.methods);
     const struct br_trade_grid grid = {
         .n = o->whole[BR_OPT_N],
         .steps = item->steps,
@@ -110,6 +132,46 @@ static enum br_status check_used(const struct run *r, bool split, struct br_erro
                                   : br_first_given(o, of_fixed);
     return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods uses it", dropped)
                    : BR_OK;
+}
+
+/* A relative error as scenes have a ratio: 1e-3, 5 %. */
+static enum br_status read_error(const char *text, double *error, struct br_error *err)
+{
+    double value;
+    struct br_unit unit;
+    struct br_si_number number;
+    const char *end = br_read_number(text, &value);
+    if (!end || !br_unit_read(end + strspn(end, " "), &unit) ||
+        !br_dimension_is(unit.of, (struct br_dimension){0}) ||
+        !br_unit_convert(&unit, text, (size_t)(end - text), &number) ||
+        !(number.value > 0 && number.value < 1))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--error: found '%s', expected a relative error above 0 and below 1, like "
+                       "1e-3 or 5 %%",
+                       text);
+    *error = number.value;
+    return BR_OK;
+}
+
+/* What --error or --seconds asks for, of one scene and by a reference for all meshes and steps. */
+static enum br_status read_goal(struct run *r, struct br_error *err)
+{
+    static const enum br_option_id goals[] = {BR_OPT_ERROR, BR_OPT_SECONDS, BR_OPTIONS};
+    const struct br_options *o = r->options;
+    const char *error = br_option_text(o, BR_OPT_ERROR), *goal = br_first_given(o, goals);
+    if (!goal)
+        return BR_OK;
+    if (error && br_option_given(o, BR_OPT_SECONDS))
+        return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found both");
+    if (o->words != 1)
+        return br_fail(err, BR_BAD_INPUT, "--%s: found %zu scenes, expected one", goal, o->words);
+    if (r->study.judge && r->study.judge->nests)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--reference: found '%s', expected a reference for any mesh and time step: "
+                       "exact or mms",
+                       r->study.judge->name);
+    r->goal.seconds = br_option_number(o, BR_OPT_SECONDS, 0);
+    return error ? read_error(error, &r->goal.error, err) : BR_OK;
 }
 
 static enum br_status check_norm(const struct run *r, struct br_error *err)
@@ -152,13 +214,14 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     const char *name = item->opened.scene.name;
     trade->request.observer = br_progress_start(name, r->session->quiet);
     enum br_status status = br_trade_foresee(trade, err);
-    if (!status && !r->session->quiet && (o->seconds >= worth_printing || o->left > 0)) {
+    if (!status && !r->session->quiet && !br_trade_has_goal(trade) &&
+        (o->seconds >= worth_printing || o->left > 0)) {
         br_progress_end();
         fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->planned, o->seconds);
         if (o->left)
             fprintf(stderr,
-                    "; %zu more, the most expensive, are left out; --seconds %.0f tries all",
-                    o->left, br_trade_seconds_of_all(o));
+                    "; %zu more, the most expensive, are left out (about %.0f s); --all tries all",
+                    o->left, o->left_seconds);
         fputc('\n', stderr);
     }
     if (!status)
@@ -176,11 +239,14 @@ static enum br_status run_all(struct run *r, struct br_error *err)
             return err->status;
         item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
     }
-    for (size_t i = 0; i < r->items; i++)
-        br_warn_of_trials(&r->item[i].opened.scene, r->item[i].trade.trial, r->item[i].trade.count);
-    for (size_t i = 0; i < r->items; i++)
+    for (size_t i = 0; i < r->items; i++) {
+        const struct br_trade *t = &r->item[i].trade;
+        if (!br_trade_has_goal(t))
+            br_warn_of_trials(t->request.scene, t->trial, t->count);
         if (run_one(r, &r->item[i], err))
             return err->status;
+        br_warn_of_trials(t->request.scene, &t->trial[t->chosen], t->chosen < t->count);
+    }
     return BR_OK;
 }
 
@@ -197,18 +263,17 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->items && !status; i++) {
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session->threads);
-        br_report_trade(trade[i], &provenance, &d[i]);
-        const struct br_drawn_trials drawn = {&trade[i]->methods,
-                                              trade[i]->request.norm,
-                                              trade[i]->trial,
-                                              trade[i]->count,
-                                              trade[i]->count,
-                                              NAN,
-                                              NAN};
+        char *words = br_session_scene(r->session, r->options->word[i]);
+        if (!words) {
+            status = br_no_memory(err, "the reports");
+            break;
+        }
+        br_report_trade(trade[i], words, &provenance, &d[i]);
+        free(words);
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
-            if (br_trade_picture_applies(*p, &drawn))
+            if (br_trade_picture_applies(*p, trade[i]))
                 br_session_draw(r->session, &d[i],
-                                br_trade_draw(*p, &drawn, d[i].name, d[i].caption), (*p)->title);
+                                br_trade_draw(*p, trade[i], d[i].name, d[i].caption), (*p)->title);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session->threads);
@@ -229,6 +294,9 @@ static enum br_status check(const struct run *r, struct br_error *err)
             t->count)
             return br_fail(err, BR_NOT_FINITE, "%s: no trial was completed; the first: %.900s",
                            r->item[i].opened.scene.name, t->trial[0].failure.message);
+        if (br_trade_has_goal(t) && t->chosen == t->count)
+            return br_fail(err, BR_NOT_FINITE, "%s: none of the %zu trials reaches the goal",
+                           r->item[i].opened.scene.name, t->count);
     }
     return BR_OK;
 }
@@ -238,8 +306,9 @@ static enum br_status check(const struct run *r, struct br_error *err)
 /* Refuses options that --split does not use. */
 static enum br_status check_split(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id others[] = {BR_OPT_TIME_LIMIT, BR_OPT_SECONDS, BR_OPT_REFERENCE,
-                                               BR_OPT_RESUME, BR_OPTIONS};
+    static const enum br_option_id others[] = {BR_OPT_TIME_LIMIT, BR_OPT_ERROR,     BR_OPT_SECONDS,
+                                               BR_OPT_ALL,        BR_OPT_REFERENCE, BR_OPT_RESUME,
+                                               BR_OPTIONS};
     const char *other = br_first_given(o, others);
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not use it", other);
@@ -330,7 +399,7 @@ static bool split(struct run *r, struct br_error *err)
 static bool trade(struct run *r, struct br_error *err)
 {
     if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err) ||
-        check_norm(r, err) || check_used(r, false, err) || read_scenes(r, err))
+        check_norm(r, err) || check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))
@@ -365,11 +434,17 @@ const struct br_command br_command_trade = {
         "front, the cheapest way to an error of 1e-2, 1e-3, ... 1e-10, and all trials. Without "
         "--methods all time schemes are tried, and with one of them the other friction rules and "
         "linear solvers. Without -n and -k the trials are on a coarse grid and at the cells of the "
-        "paper's table.",
-    .more = "For several scenes there is a summary, too.",
+        "paper's table. With --error or --seconds the answer is the way to take: the cheapest one "
+        "to that error, or the most accurate one within these seconds, and command lines that "
+        "march it.",
+    .more = "For several scenes there is a summary, too. A goal is searched from the cheapest "
+            "trials on, until nothing cheaper is left, then on a finer grid around the best two "
+            "methods; meshes and steps that are given are tried as they are. If no trial reaches "
+            "it, the exit code is 3.",
     .example =
         {"beamrate trade example2 --methods euler+lagged,euler+implicit -n 25,100 -k 0.1,0.01",
          "beamrate trade example1 example3 --methods bdf2,adaptive -n 50 -k 0.05,0.01 --time-limit 2",
+         "beamrate trade example2 --error 1e-3",
          "beamrate trade example2 --split --methods euler+lagged,euler+implicit -k 0.1,0.01"},
     .least_words = 1,
     .most_words = BR_MOST_WORDS,

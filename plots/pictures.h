@@ -25,6 +25,7 @@ struct br_report;
 struct br_scene;
 struct br_split;
 struct br_stability;
+struct br_trade;
 struct br_trial;
 
 /* ---- figure.c ---- */
@@ -137,7 +138,8 @@ void br_series_sort(struct br_series *series);
 void br_mark_add(struct br_figure *figure, double x, const char *title);
 void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
 
-/* Puts an order into an ascending list of `count`, unless the list has it; returns the new count. */
+/* Puts an order into an ascending list of `count`, unless the list has it; returns the new count.
+ */
 size_t br_slope_put(double *order, size_t count, double new);
 
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
@@ -183,34 +185,23 @@ struct br_figure br_convergence_draw(const struct br_convergence_picture *pictur
 
 /* ---- trade.c: what a digit costs ---- */
 
-/* The trials of a trade or a plan. Borrowed. */
-struct br_drawn_trials {
-    const struct br_named_methods *methods;
-    const struct br_norm *norm;
-    const struct br_trial *trial; /* count */
-    size_t count, chosen;         /* chosen: by the plan; count: none */
-    double error, seconds;        /* the plan's goal; NaN: none */
-};
-
 /* A method's stairs join the trials that none of its own beats; dots are the others. */
 struct br_trade_picture {
     const char *name;  /* of the files: <scene>-<name>.gp and so on */
     const char *title; /* one line for a person */
     const char *short_title;
     /* Whether a method has a curve. */
-    bool (*shows)(const struct br_drawn_trials *trials, const struct br_named_method *named);
+    bool (*shows)(const struct br_trade *trade, const struct br_named_method *named);
     const char *label;                            /* of the axis of work, with its unit */
     double (*work)(const struct br_trial *trial); /* along that axis; NaN: not drawn */
 };
 extern const struct br_trade_picture *const br_trade_pictures[]; /* NULL-terminated */
 
 /* Whether the picture has anything to show. */
-bool br_trade_picture_applies(const struct br_trade_picture *picture,
-                              const struct br_drawn_trials *trials);
+bool br_trade_picture_applies(const struct br_trade_picture *picture, const struct br_trade *trade);
 
-struct br_figure br_trade_draw(const struct br_trade_picture *picture,
-                               const struct br_drawn_trials *trials, const char *name,
-                               const char *caption);
+struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
+                               const char *name, const char *caption);
 
 /* ---- check.c: observed orders beside what is expected ---- */
 
@@ -288,8 +279,8 @@ struct br_gnuplot {
 enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
                                 bool *missing, struct br_error *err);
 
-/* Waits for the end. Fails, too, if a picture is incomplete (a full disk), which gnuplot itself does
- * not check. After any failure it removes all pictures of the figure. */
+/* Waits for the end. Fails, too, if a picture is incomplete (a full disk), which gnuplot itself
+ * does not check. After any failure it removes all pictures of the figure. */
 enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
 
 #endif

@@ -13,18 +13,18 @@ static bool is_plain(const struct br_named_method *c)
     return c->method.friction == br_friction_rules[0] && c->method.solver == br_linear_solvers[0];
 }
 
-static bool shows_schemes(const struct br_drawn_trials *t, const struct br_named_method *c)
+static bool shows_schemes(const struct br_trade *t, const struct br_named_method *c)
 {
     (void)t;
     return is_plain(c);
 }
 
 /* The other methods, and the plain methods of the same scheme, to compare with. */
-static bool shows_rules(const struct br_drawn_trials *t, const struct br_named_method *c)
+static bool shows_rules(const struct br_trade *t, const struct br_named_method *c)
 {
     bool compared = !is_plain(c);
-    for (size_t i = 0; i < t->methods->count; i++) {
-        const struct br_named_method *other = &t->methods->list[i];
+    for (size_t i = 0; i < t->methods.count; i++) {
+        const struct br_named_method *other = &t->methods.list[i];
         compared |= !is_plain(other) && other->method.scheme == c->method.scheme &&
                     other->method.contact == c->method.contact &&
                     other->method.axial_degree == c->method.axial_degree;
@@ -63,11 +63,11 @@ static const struct br_trade_picture rules = {
 
 const struct br_trade_picture *const br_trade_pictures[] = {&schemes, &work, &rules, NULL};
 
-bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_drawn_trials *t)
+bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_trade *t)
 {
     bool applies = false;
-    for (size_t i = 0; i < t->methods->count; i++)
-        applies |= p->shows(t, &t->methods->list[i]);
+    for (size_t i = 0; i < t->methods.count; i++)
+        applies |= p->shows(t, &t->methods.list[i]);
     return applies;
 }
 
@@ -85,7 +85,7 @@ static void add_trial(const struct br_trade_picture *p, const struct br_trial *t
 }
 
 /* Adds the Pareto front of a method's trials, or of all that are shown (NULL). */
-static void add_front(const struct br_trade_picture *p, const struct br_drawn_trials *t,
+static void add_front(const struct br_trade_picture *p, const struct br_trade *t,
                       const struct br_named_method *only, struct br_series *s)
 {
     size_t kept = 0;
@@ -114,7 +114,7 @@ static const struct {
 };
 
 /* The order of hues: the paper's method first, then those with most trials on the common front. */
-static size_t merit(const struct br_trade_picture *p, const struct br_drawn_trials *t,
+static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
                     const struct br_named_method *c, const struct br_series *front)
 {
     size_t kept = 1;
@@ -125,25 +125,24 @@ static size_t merit(const struct br_trade_picture *p, const struct br_drawn_tria
     return br_trade_is_printed_method(c) ? t->count + 2 : kept;
 }
 
-/* Adds the trial that a plan chose, and the line of its goal. */
-static void add_goal(const struct br_trade_picture *p, const struct br_drawn_trials *t,
+/* Adds the trial that was chosen, and the line of its goal. */
+static void add_goal(const struct br_trade_picture *p, const struct br_trade *t,
                      struct br_figure *f)
 {
     const struct br_range x = br_extent(&f->panel[0], false);
     if (t->chosen < t->count)
         add_trial(p, &t->trial[t->chosen], br_series_add(f, BR_PEN_SQUARES, "chosen"));
-    if (isfinite(t->seconds))
-        br_mark_add(f, t->seconds, "goal");
-    if (!isfinite(t->error))
+    if (t->goal.seconds > 0)
+        br_mark_add(f, t->goal.seconds, "goal");
+    if (!(t->goal.error > 0))
         return;
     struct br_series *goal = br_series_add(f, BR_PEN_GUIDE, "goal");
-    br_point_add(goal, x.low, t->error, NULL);
-    br_point_add(goal, x.high, t->error, NULL);
+    br_point_add(goal, x.low, t->goal.error, NULL);
+    br_point_add(goal, x.high, t->goal.error, NULL);
 }
 
-struct br_figure br_trade_draw(const struct br_trade_picture *picture,
-                               const struct br_drawn_trials *trade, const char *name,
-                               const char *caption)
+struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
+                               const char *name, const char *caption)
 {
     size_t failed = 0, over = 0;
     for (size_t i = 0; i < trade->count; i++) {
@@ -158,7 +157,7 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture,
         BR_SAY(f->note[0], "not drawn: %zu failed, %zu over the time limit", failed, over);
     struct br_panel *panel = br_panel_add(f, picture->label, "");
     panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "relative %s", trade->norm->symbol);
+    BR_SAY(panel->y_label, "relative %s", trade->request.norm->symbol);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "Pareto front");
     add_front(picture, trade, NULL, front);
     for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++) {
@@ -175,16 +174,16 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture,
     }
     /* The fronts of all methods that are shown, by merit. */
     size_t left[BR_MOST_NAMED_METHODS] = {0}; /* merits; 0: done, or not shown */
-    for (size_t i = 0; i < trade->methods->count; i++)
-        if (picture->shows(trade, &trade->methods->list[i]))
-            left[i] = merit(picture, trade, &trade->methods->list[i], front);
+    for (size_t i = 0; i < trade->methods.count; i++)
+        if (picture->shows(trade, &trade->methods.list[i]))
+            left[i] = merit(picture, trade, &trade->methods.list[i], front);
     for (;;) {
         size_t best = 0;
-        for (size_t i = 1; i < trade->methods->count; i++)
+        for (size_t i = 1; i < trade->methods.count; i++)
             best = left[i] > left[best] ? i : best;
         if (!left[best])
             break;
-        const struct br_named_method *c = &trade->methods->list[best];
+        const struct br_named_method *c = &trade->methods.list[best];
         left[best] = 0;
         add_front(picture, trade, c, br_series_add(f, BR_PEN_CURVE, "%s", c->name));
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "solver/scene.h"
@@ -154,6 +155,83 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
     }
 }
 
+/* ---- a goal ---- */
+
+/* "1e-3", or of an achieved error two digits, "4.5e-4"; returns `text` (out). */
+enum { ERROR_TEXT = 32 };
+static const char *error_text(double error, bool achieved, char text[ERROR_TEXT])
+{
+    int digits = achieved;
+    do {
+        snprintf(text, ERROR_TEXT, "%.*e", digits, error);
+    } while (!achieved && strtod(text, NULL) != error && digits++ < 16);
+    char *power = strchr(text, 'e');
+    if (power && power[1] == '-' && power[2] == '0')
+        memmove(power + 2, power + 3, strlen(power + 3) + 1);
+    return text;
+}
+
+/* "Cheapest way to 1e-3: bdf2+p2, n = 3, k = 0.1 s (error 4.5e-4)." */
+static void answer_goal(struct br_document *d, const struct br_trade *t)
+{
+    char trial[BR_TRIAL_TEXT], goal[ERROR_TEXT], error[ERROR_TEXT];
+    const struct br_trial *best = &t->trial[t->chosen];
+    error_text(t->goal.error, false, goal);
+    if (t->chosen == t->count) {
+        if (t->goal.error > 0)
+            br_put_answer(d, "No trial has an error of %s or less.", goal);
+        else
+            br_put_answer(d, "No trial takes at most %g CPU s.", t->goal.seconds);
+        answer_front(d, t);
+        return;
+    }
+    if (t->goal.error > 0)
+        br_put_answer(d, "Cheapest way to %s: ", goal);
+    else
+        br_put_answer(d, "Least error within %g CPU s: ", t->goal.seconds);
+    br_put_more(d, "%s (error %s).", br_trial_text(t->request.scene, best, trial),
+                error_text(br_trial_bound(best), true, error));
+    br_put_answer(d, "It takes %.3g CPU s for %zu steps.", br_trial_seconds(best),
+                  best->cost.counts.steps);
+}
+
+/* Command lines that repeat the chosen trial: its march, and its error and seconds. */
+static void put_commands(struct br_document *d, const struct br_trade *t, const char *words)
+{
+    enum { LONGEST = 1024 };
+    if (t->chosen == t->count || strlen(words) > LONGEST)
+        return;
+    const struct br_trial *best = &t->trial[t->chosen];
+    const struct br_method method = br_trial_method(best);
+    const bool usual = t->request.norm == br_norms[0];
+    char options[BR_METHOD_TEXT], step[64], line[2 * LONGEST];
+    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", words, best->at.n,
+             best->at.steps, br_method_options(t->request.scene, &method, options));
+    br_put_command(d, "run", "To march it", line);
+    if (best->named->method.scheme->adaptive)
+        snprintf(step, sizeof step, "--tolerance %.15g", best->tolerance);
+    else
+        snprintf(step, sizeof step, "--k T/%zu", best->at.steps);
+    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", words,
+             best->named->name, best->at.n, step, usual ? "" : " --norm ",
+             usual ? "" : t->request.norm->name);
+    br_put_command(d, "trade", "To measure it again", line);
+}
+
+/* The trial of each method that is best for the goal. */
+static void put_best_of_methods(struct br_document *d, const struct br_trade *t)
+{
+    br_put_table(d, "goal", "The best of each method", BR_FOR_PEOPLE);
+    for (size_t m = 0; m < t->methods.count; m++) {
+        const size_t best = br_trials_for_goal(t->trial, t->count, &t->goal, &t->methods.list[m]);
+        if (best == t->count)
+            continue;
+        br_put_row(d);
+        put_outcome(d, t, best);
+        BR_PUT(d, br_text(best == t->chosen ? "chosen" : NULL), .key = "remark");
+    }
+}
+
 /* The first trial with an error has the norm of the solution and the judge's own error. */
 static void note_judge(struct br_document *d, const struct br_trade *t)
 {
@@ -173,17 +251,16 @@ static void note_judge(struct br_document *d, const struct br_trade *t)
                     known->own / known->scale);
 }
 
-void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,
-                     struct br_document *d)
+static void put_answers(struct br_document *d, const struct br_trade *t, const char *words)
 {
-    char caption[512];
-    snprintf(caption, sizeof caption, "What a digit costs: %.400s", t->request.scene->title);
-    br_document_begin(d, t->request.scene->name, "beamrate trade", 1, caption);
-    answer_cheapest(d, t);
-    answer_front(d, t);
-    answer_paper(d, t);
-
     const char *between = "";
+    if (br_trade_has_goal(t)) {
+        answer_goal(d, t);
+    } else {
+        answer_cheapest(d, t);
+        answer_front(d, t);
+        answer_paper(d, t);
+    }
     br_put_answer(d, "Trials: ");
     for (enum br_trial_end end = BR_TRIAL_DONE; end < BR_TRIAL_ENDS; end++)
         if (br_trade_tally(t, end)) {
@@ -194,15 +271,13 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     if (t->forecast.left)
         br_put_answer(d,
                       "Left out to save time, the most expensive first: %zu of %zu trials, about "
-                      "%.0f s; --seconds %.0f tries all.",
-                      t->forecast.left, t->count, t->forecast.left_seconds,
-                      br_trade_seconds_of_all(&t->forecast));
+                      "%.0f s; --all tries all.",
+                      t->forecast.left, t->count, t->forecast.left_seconds);
+    put_commands(d, t, words);
+}
 
-    br_put_table(d, "cheapest", "Cheapest way to an error",
-                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);
-    put_targets(d, t, NULL);
-    put_trials(d, t, true);
-
+static void put_methods(struct br_document *d, const struct br_trade *t)
+{
     br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY);
     for (size_t c = 0; c < t->methods.count; c++) {
         br_put_row(d);
@@ -217,6 +292,25 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
                    .heading = key + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
         }
     }
+}
+
+void br_report_trade(const struct br_trade *t, const char *words,
+                     const struct br_provenance *provenance, struct br_document *d)
+{
+    char caption[512];
+    snprintf(caption, sizeof caption, "What a digit costs: %.400s", t->request.scene->title);
+    br_document_begin(d, t->request.scene->name, "beamrate trade", 1, caption);
+    put_answers(d, t, words);
+    if (br_trade_has_goal(t)) {
+        put_best_of_methods(d, t);
+    } else {
+        br_put_table(d, "cheapest", "Cheapest way to an error",
+                     t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);
+        put_targets(d, t, NULL);
+    }
+    put_trials(d, t, true);
+    if (!br_trade_has_goal(t))
+        put_methods(d, t);
 
     br_put_table(d, "failures", "Trials that were not completed", BR_FOR_PEOPLE);
     for (size_t i = 0; i < t->count; i++) {
@@ -232,6 +326,12 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     put_trials(d, t, false);
 
     br_hide_fact(d, br_text(t->request.scene->name), NULL, "scene.name");
+    if (br_trade_has_goal(t)) {
+        br_hide_fact(d, br_if(t->goal.error > 0, br_number(t->goal.error)), NULL, "goal_error");
+        br_hide_fact(d, br_if(t->goal.seconds > 0, br_number(t->goal.seconds)), NULL,
+                     "goal_seconds");
+        br_hide_fact(d, br_if(t->chosen < t->count, br_count(t->chosen)), NULL, "chosen");
+    }
     br_hide_fact(d, br_text(t->request.norm->name), NULL, "norm");
     br_hide_fact(d, br_text(t->request.norm->unit), NULL, "unit");
     br_hide_fact(d, br_text(br_trials_judge(&t->request)->name), NULL, "judge");

@@ -14,7 +14,6 @@ struct br_finding;
 struct br_floors;
 struct br_old_check;
 struct br_orders;
-struct br_plan;
 struct br_prediction;
 struct br_report;
 struct br_run_report;
@@ -78,12 +77,13 @@ extern const struct br_document_format *const br_check_formats[];
  */
 enum br_status br_check_read_json(const char *path, struct br_old_check *old, struct br_error *err);
 
-/* ---- trade, split, plan ---- */
+/* ---- trade, split ---- */
 
 /* One scene: the cheapest way to each error, the seconds that each method takes to it, the Pareto
- * front, and for programs all trials. The document has the name of the scene. */
-void br_report_trade(const struct br_trade *trade, const struct br_provenance *provenance,
-                     struct br_document *d);
+ * front, and for programs all trials; with a goal the way to take, and the best of each method. The
+ * document has the name of the scene. words: the scene on a command line. */
+void br_report_trade(const struct br_trade *trade, const char *words,
+                     const struct br_provenance *provenance, struct br_document *d);
 
 /* Several scenes in one norm: the cheapest ways alone. The document is named BR_SUMMARY. */
 #define BR_SUMMARY "summary"
@@ -93,11 +93,6 @@ void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
 /* The sources of the errors of `count` runs of one scene. The document is named <scene>-split. */
 void br_report_split(const struct br_split *split, size_t count,
                      const struct br_provenance *provenance, struct br_document *d);
-
-/* The proposal of a plan, what was predicted and achieved, and the quality of its models. The
- * document is named <scene>-plan. words: the scene on a command line, with what is set. */
-void br_report_plan(const struct br_plan *plan, const char *words,
-                    const struct br_provenance *provenance, struct br_document *d);
 
 /* ---- extremes, one for each experiment: without provenance ---- */
 

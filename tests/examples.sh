@@ -90,8 +90,11 @@ shorten() {
     unless 'beamrate tables' ' --n ' ' -n ' '--n 5,10 --k 0.1,0.05 --reference fine:20,0.05'
     unless ' --split --methods' ' --help' ' -h ' --help
     unless ' --split' ' --n ' ' -n ' '--n 10'
-    unless 'beamrate trade' ' --n ' ' -n ' '--n 10 --k 0.1,0.05 --methods euler,bdf2'
-    unless 'beamrate plan' ' --methods' ' --help' '--methods euler+implicit,adaptive+p2'
+    case $line in
+    *' --error 1e'* | *' --seconds '*)
+        unless 'beamrate trade' ' --methods' ' --help' '--methods euler+implicit,adaptive+p2' ;;
+    *) unless 'beamrate trade' ' --n ' ' -n ' '--n 10 --k 0.1,0.05 --methods euler,bdf2' ;;
+    esac
     unless 'beamrate extremes' ' --help' ' -h ' --help
     unless 'beamrate figures' ' --help' ' -h ' --help
     unless ' 1e-4 --check' ' --help' ' -h ' --help

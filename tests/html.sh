@@ -26,7 +26,7 @@ beamrate extremes floors --n 3,6 --k 0.01 --out floors
 beamrate trade example2 example3 --methods euler,trbdf2 --n 10 --k 0.1 --no-plots --out trade
 beamrate trade example2 --split --n 10 --k 0.1,0.05 --out split
 beamrate check example3 --out check
-beamrate plan example2 --error 1e-2 --methods euler+implicit --out plan
+beamrate trade example2 --error 1e-2 --methods euler+implicit --out goal
 bin/beamrate run example1 --n 4 --k 0.1 --check --quiet --out run
 
 if command -v python3 >/dev/null; then
@@ -37,7 +37,7 @@ if command -v python3 >/dev/null; then
     page missing 0 "<code>gnuplot example2-h.gp</code>"
     page trade 0 "<title>beamrate trade: 3 reports</title>"
     page split $pictures
-    page plan $pictures
+    page goal $((2 * pictures))
     shown="<figcaption>Each observed order"
     [ $pictures = 1 ] || shown="<code>gnuplot check.gp</code>"
     page check $pictures "$shown"

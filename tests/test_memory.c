@@ -83,7 +83,7 @@ TEST(test_sweep)
         {"check small.yaml --quiet --json set.json", 75, false},
         {"check small.yaml --quiet --compare old.json", 75, false},
         {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 0, false},
-        {"plan small.yaml --error 1e-1 --methods euler --quiet --out set", 795, true},
+        {"trade small.yaml --error 1e-1 --methods euler --quiet --out set", 795, true},
         {"trade small.yaml --methods euler,bdf2 --n 4 --k 0.1 --no-plots --quiet --out set", 311,
          true},
         {"trade small.yaml --split --n 4 --k 0.1 --no-plots --quiet --out set", 587, true},

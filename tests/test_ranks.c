@@ -165,7 +165,6 @@ static void test_all_commands(void **state)
         {"run example2 --n 40 --k 0.01", 0, "Example 2"},
         {"run example2 --n 10 --k 0.1 --set 'contact.gap=1 mm'", 0, "contact.gap=1 mm"},
         {"trade example2", 2, disturb},
-        {"plan example2 --error 1e-1", 2, disturb},
         {"extremes floors", 2, "found 2 ranks, expected one"},
         {"figures --quiet --out figures", 0, ""},
         {"scenes", 0, "example2 "},

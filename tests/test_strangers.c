@@ -143,7 +143,7 @@ static const struct {
     {"run SCENE --n 2 --k 3", 2},
     {"study SCENE.no", 2},
     /* takes long */
-    {"plan SCENE --error 0.3 --methods euler --reference mms --out plan", 0},
+    {"trade SCENE --error 0.3 --methods euler --reference mms --out goal", 0},
 };
 
 #define COMMANDS (sizeof commands / sizeof *commands)

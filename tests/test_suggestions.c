@@ -477,7 +477,7 @@ static void say_option(const char *frame, const char *word, char *answer, size_t
 
 TEST(options)
 {
-    static const char *const commands[] = {"study example1", "orders t.csv", "plan example2",
+    static const char *const commands[] = {"study example1", "orders t.csv", "trade example2",
                                            "check example1", "run example1"};
     struct list done = {0};
     for (size_t c = 0; c < sizeof commands / sizeof *commands; c++) {

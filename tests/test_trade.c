@@ -180,6 +180,30 @@ TEST(test_errors_are_a_study_s)
     br_scene_clear(&scene);
 }
 
+/* Also where no number of levels has the levels of all trials on a mesh. */
+TEST(test_steps_without_common_levels)
+{
+    static const size_t steps[] = {947, 1259, 1687, 2251, 3001, 4001};
+    enum { COUNT = sizeof steps / sizeof *steps };
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example3");
+    struct br_named_methods all;
+    struct br_trial trial[COUNT], alone;
+    MUST(br_named_methods_read("--methods", "bdf2", &all, &err));
+    struct br_trial_request request = br_trial_request_default(&scene);
+    request.repeats = 1;
+    for (size_t i = 0; i < COUNT; i++)
+        trial[i] = br_trial_at(all.list, 8, steps[i], 0);
+    MUST(br_trials_run(trial, COUNT, &request, &err));
+    for (size_t i = 0; i < COUNT; i++) {
+        assert_int_equal(trial[i].end, BR_TRIAL_DONE);
+        alone = br_trial_at(all.list, 8, steps[i], 0);
+        MUST(br_trials_run(&alone, 1, &request, &err));
+        CLOSE(br_trial_relative(&trial[i]), br_trial_relative(&alone), 1e-15);
+    }
+    br_scene_clear(&scene);
+}
+
 static bool stop_at_once(void *self)
 {
     (void)self;

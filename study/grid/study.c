@@ -119,21 +119,23 @@ static void nearest_divisors(size_t of, size_t a, size_t *below, size_t *above)
         (*above)++;
 }
 
+size_t br_common_levels(size_t a, size_t b)
+{
+    size_t divisor = a;
+    for (size_t rest = b, other; rest; rest = other) {
+        other = divisor % rest;
+        divisor = rest;
+    }
+    return divisor == 0 || b / divisor > ((size_t)1 << 52) / a ? 0 : a * (b / divisor);
+}
+
 /* The time levels of a reference that has none of its own: those of all cells. */
 static enum br_status common_levels(struct br_study *s, struct br_error *err)
 {
     size_t common = 1;
-    for (size_t j = 0; j < s->k_count; j++) {
-        size_t a = common, b = s->steps[j];
-        while (b) {
-            const size_t rest = a % b;
-            a = b;
-            b = rest;
-        }
-        if (a == 0 || s->steps[j] / a > ((size_t)1 << 52) / common)
+    for (size_t j = 0; j < s->k_count; j++)
+        if (!(common = br_common_levels(common, s->steps[j])))
             return br_fail(err, BR_BAD_INPUT, "the time steps have too few time levels in common");
-        common *= s->steps[j] / a;
-    }
     s->reference = (struct br_resolution){.n = 0, .steps = common};
     return BR_OK;
 }

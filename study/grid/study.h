@@ -92,6 +92,9 @@ struct br_resolution br_study_resolution(const struct br_study *study, size_t ce
 /* The cell of row i (n) and column j (k); not of a path. */
 const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j);
 
+/* The least number of equal time steps that has the levels of a and of b; 0: more than 2^52. */
+size_t br_common_levels(size_t a, size_t b);
+
 /* The reference's own k, s, and h, m; 0 where it has none. */
 double br_reference_step(const struct br_study *study);
 double br_reference_mesh(const struct br_study *study);

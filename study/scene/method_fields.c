@@ -383,7 +383,7 @@ const char *br_method_options(const struct br_scene *scene, const struct br_meth
     text[0] = '\0';
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        const bool always = i == BR_METHOD_TOLERANCE; /* a plan's choice must be visible */
+        const bool always = i == BR_METHOD_TOLERANCE; /* the choice of a trade must be visible */
         if ((f->in && !f->in(scene)) || !br_method_field_used(f, m) || f->unsaid || !f->argument ||
             (is_default(f, m) && !always))
             continue;

@@ -2,9 +2,12 @@
 #include "study/trade/trade.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "study/fit/fit.h"
 
 double br_trade_target(size_t digit)
 {
@@ -16,11 +19,6 @@ double br_trade_digits_per_second(const struct br_trial *trial)
     if (!isfinite(br_trial_bound(trial)))
         return NAN;
     return -log10(br_trial_relative(trial)) / br_trial_seconds(trial);
-}
-
-double br_trade_seconds_of_all(const struct br_trial_forecast *o)
-{
-    return ceil(1.3 * (o->seconds + o->left_seconds));
 }
 
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end)
@@ -59,6 +57,42 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
  */
 static const double tie = 1e-6;
 
+/* Seconds of two trials that differ by less may change places when they are measured again. */
+static const double scatter = 0.1;
+
+static bool reaches(const struct br_trial *t, const struct br_trade_goal *goal)
+{
+    const double error = br_trial_bound(t), seconds = br_trial_seconds(t);
+    return isfinite(error) && isfinite(seconds) && (!(goal->error > 0) || error <= goal->error) &&
+           (!(goal->seconds > 0) || seconds <= goal->seconds);
+}
+
+/* Whether a is better than b, both of which reach the goal. */
+static bool is_better(const struct br_trial *a, const struct br_trial *b,
+                      const struct br_trade_goal *goal)
+{
+    return goal->error > 0 ? is_cheaper(a, b) : br_trial_bound(a) < br_trial_bound(b);
+}
+
+size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
+                          const struct br_trade_goal *goal, const struct br_named_method *only)
+{
+    size_t best = count;
+    for (size_t i = 0; i < count; i++)
+        if ((!only || trial[i].named == only) && reaches(&trial[i], goal) &&
+            (best == count || is_better(&trial[i], &trial[best], goal)))
+            best = i;
+    if (best == count || !(goal->error > 0))
+        return best;
+    const struct br_trade_goal equal = {goal->error,
+                                        (1 + scatter) * br_trial_seconds(&trial[best])};
+    for (size_t i = 0; i < count; i++)
+        if ((!only || trial[i].named == only) && reaches(&trial[i], &equal) &&
+            (1 + tie) * br_trial_bound(&trial[i]) < br_trial_bound(&trial[best]))
+            best = i;
+    return best;
+}
+
 /* Whether b is better than a; of equals the earlier is better. */
 static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 {
@@ -80,6 +114,9 @@ void br_trials_front(const struct br_trial *trial, size_t count, bool *front)
 
 static void choose(struct br_trade *t)
 {
+    t->chosen =
+        br_trade_has_goal(t) ? br_trials_for_goal(t->trial, t->count, &t->goal, NULL) : t->count;
+    t->forecast.left = br_trade_tally(t, BR_TRIAL_LEFT); /* a goal that is reached may need fewer */
     br_trials_front(t->trial, t->count, t->front);
     for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
         const double target = br_trade_target(d);
@@ -88,6 +125,132 @@ static void choose(struct br_trade *t)
             t->best_of[c][d] = br_trials_cheapest(t->trial, t->count, target, &t->methods.list[c]);
     }
 }
+
+/* ---- searching for a goal ---- */
+
+/* The most that a further trial may take, s: as much as the best one where an error is the goal. */
+static double allowed_seconds(const struct br_trade *t)
+{
+    const double limit = t->request.time_limit > 0 ? t->request.time_limit : INFINITY;
+    const size_t best = br_trials_for_goal(t->trial, t->count, &t->goal, NULL);
+    if (!(t->goal.error > 0))
+        return fmin(limit, t->goal.seconds);
+    return best < t->count ? fmin(limit, br_trial_seconds(&t->trial[best])) : limit;
+}
+
+/* By those of the last trial of the method that is complete; 0: there is none. */
+static double expected_seconds(const struct br_trade *t, const struct br_trial *trial)
+{
+    double seconds = 0;
+    for (const struct br_trial *o = t->trial; o < t->trial + t->count; o++)
+        if (o->named == trial->named && br_trial_seconds(o) > 0)
+            seconds = br_trial_seconds(o) * trial->foreseen / o->foreseen;
+    return seconds;
+}
+
+/* A goal far above the reference's own error alone can be judged. */
+static enum br_status check_reference(const struct br_trade *t, struct br_error *err)
+{
+    double own = INFINITY;
+    for (const struct br_trial *o = t->trial; o < t->trial + t->count; o++)
+        if (o->scale > 0 && isfinite(o->own))
+            own = fmin(own, o->own / o->scale);
+    if (!(t->goal.error > 0) || !isfinite(own) || t->goal.error >= br_flag_margin * own)
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "--error: found %g, but the reference itself has an error of %.1e: expected at "
+                   "least %.1e",
+                   t->goal.error, own, br_flag_margin * own);
+}
+
+/* By work, then in the order of the list. */
+static int by_work(const void *a, const void *b)
+{
+    const struct br_trial *x = a, *y = b;
+    const int work = (x->foreseen > y->foreseen) - (x->foreseen < y->foreseen);
+    return work ? work : (x->named > y->named) - (x->named < y->named);
+}
+
+/* From the cheapest trials on, in waves of at most three times the work of their first trial. What
+ * is expected to take too long when its wave comes is dropped. */
+static enum br_status run_waves(struct br_trade *t, struct br_error *err)
+{
+    const size_t all = t->count;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < all; i++)
+        t->trial[i].foreseen = br_trial_work(t->request.scene, &t->trial[i]);
+    qsort(t->trial, all, sizeof *t->trial, by_work);
+    t->count = 0;
+    for (size_t next = 0; next < all && !status;) {
+        const size_t done = t->count;
+        const double most = 3 * t->trial[next].foreseen;
+        const double allowed = allowed_seconds(t);
+        for (; next < all && t->trial[next].foreseen <= most; next++)
+            if (expected_seconds(t, &t->trial[next]) <= allowed)
+                t->trial[t->count++] = t->trial[next];
+        status = br_trials_run(t->trial + done, t->count - done, &t->request, err);
+        if (!status)
+            status = check_reference(t, err);
+    }
+    return status;
+}
+
+/* The trial so many places from another one: meshes are in factors of the square root of two, steps
+ * of 10^(1/8), and tolerances, which have two digits, of the square root of ten. */
+static struct br_trial beside(const struct br_trial *b, int mesh, int step)
+{
+    static const double fewest = 10, loosest = 0.1; /* fewer times would hide the error */
+    char text[32];
+    struct br_trial trial = br_trial_at(b->named, b->at.n, b->at.steps, b->tolerance);
+    if (mesh)
+        trial.at.n = (size_t)fmax(round((double)b->at.n * pow(2, 0.5 * mesh)), 1);
+    if (step && b->named->method.scheme->adaptive) {
+        snprintf(text, sizeof text, "%.2g", fmin(b->tolerance * pow(10, -0.5 * step), loosest));
+        trial.tolerance = strtod(text, NULL);
+    } else if (step) {
+        trial.at.steps = (size_t)fmax(round((double)b->at.steps * pow(10, 0.125 * step)), fewest);
+    }
+    return trial;
+}
+
+/* Adds trials around trial `best` that are not there and are expected not to take too long: from
+ * about its coarser neighbour to one that is finer than it or, if seconds are the goal, from one
+ * that is coarser to about its finer neighbour. */
+enum { PLACES = 6, AROUND = PLACES * PLACES };
+static void add_around(struct br_trade *t, size_t best)
+{
+    const double allowed = 1.5 * allowed_seconds(t);
+    const int last = t->goal.error > 0 ? 1 : PLACES - 2, first = last - PLACES + 1;
+    for (int i = t->finer_n ? first : 0; i <= (t->finer_n ? last : 0); i++)
+        for (int j = t->finer_steps ? first : 0; j <= (t->finer_steps ? last : 0); j++) {
+            struct br_trial trial = beside(&t->trial[best], i, j);
+            size_t same = 0;
+            trial.foreseen = br_trial_work(t->request.scene, &trial);
+            while (same < t->count && !br_trials_same(&t->trial[same], &trial))
+                same++;
+            if (same == t->count && expected_seconds(t, &trial) <= allowed)
+                t->trial[t->count++] = trial;
+        }
+}
+
+/* Around the best trials of the two best methods. */
+static enum br_status refine(struct br_trade *t, struct br_error *err)
+{
+    const size_t done = t->count, best = br_trials_for_goal(t->trial, done, &t->goal, NULL);
+    size_t other = done;
+    if (best == done)
+        return BR_OK;
+    for (size_t i = 0; i < done; i++)
+        if (t->trial[i].named != t->trial[best].named && reaches(&t->trial[i], &t->goal) &&
+            (other == done || is_better(&t->trial[i], &t->trial[other], &t->goal)))
+            other = i;
+    add_around(t, best);
+    if (other < done)
+        add_around(t, other);
+    return br_trials_run(t->trial + done, t->count - done, &t->request, err);
+}
+
+/* ---- all of it ---- */
 
 /* The judge's set-up and the forecast itself count: as seconds of this thread, which do not depend
  * on other work of the machine. */
@@ -108,7 +271,11 @@ enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
 enum br_status br_trade_run(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds();
-    const enum br_status status = br_trials_run(t->trial, t->count, &t->request, err);
+    enum br_status status = BR_OK;
+    if (!br_trade_has_goal(t))
+        status = br_trials_run(t->trial, t->count, &t->request, err);
+    else if (!(status = run_waves(t, err)))
+        status = refine(t, err);
     if (!status)
         choose(t);
     t->wall_seconds += br_seconds() - start;
@@ -128,30 +295,38 @@ void br_trade_clear(struct br_trade *t)
 
 /* ---- the grid ---- */
 
-/* Factors of about the square root of ten in time, and factors of four in space, which nest. */
+/* Factors of about the square root of ten in time, and factors of four in space. */
 static const size_t default_n[] = {25, 100, 400, 1600, 6400};
 static const size_t default_steps[] = {10, 30, 100, 300, 1000, 3000, 10000};
 static const double default_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
+
+/* The same for a goal, which ends them. */
+static const size_t goal_n[] = {1, 2, 6, 25, 100, 400, 1600, 6400, 25600, 102400};
+static const size_t goal_steps[] = {10,    30,    100,    300,    1000,   3000,
+                                    10000, 30000, 100000, 300000, 1000000};
+static const double goal_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
 
 /* The most element-stages of a trial in a default grid, by the default solver and by the others,
  * which are some 20 times slower; and the assumed steps of an adaptive scheme. */
 static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
 
-enum {
-    DEFAULT_N = sizeof default_n / sizeof *default_n,
-    DEFAULT_STEPS = sizeof default_steps / sizeof *default_steps,
-    DEFAULT_TOLERANCES = sizeof default_tolerance / sizeof *default_tolerance
-};
+#define COUNT(list) (sizeof list / sizeof *list)
+static const struct br_trade_grid defaults[] = {
+    {default_n, default_steps, default_tolerance, COUNT(default_n), COUNT(default_steps),
+     COUNT(default_tolerance), NULL},
+    {goal_n, goal_steps, goal_tolerance, COUNT(goal_n), COUNT(goal_steps), COUNT(goal_tolerance),
+     NULL}}; /* with a goal */
 
 /* A grid with its defaults filled in. */
-static struct br_trade_grid fill_in(struct br_trade_grid g)
+static struct br_trade_grid fill_in(struct br_trade_grid g, bool goal)
 {
+    const struct br_trade_grid *d = &defaults[goal];
     if (!g.n_count)
-        g.n = default_n, g.n_count = DEFAULT_N;
+        g.n = d->n, g.n_count = d->n_count;
     if (!g.step_count)
-        g.steps = default_steps, g.step_count = DEFAULT_STEPS;
+        g.steps = d->steps, g.step_count = d->step_count;
     if (!g.tolerances)
-        g.tolerance = default_tolerance, g.tolerances = DEFAULT_TOLERANCES;
+        g.tolerance = d->tolerance, g.tolerances = d->tolerances;
     return g;
 }
 
@@ -209,11 +384,15 @@ static void add_named(struct br_trade *t, const struct br_trade_grid *g,
 enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *given,
                                 struct br_error *err)
 {
-    const struct br_trade_grid g = fill_in(*given);
+    const bool goal = br_trade_has_goal(t);
+    const struct br_trade_grid g = fill_in(*given, goal);
     const size_t levels = g.tolerances > g.step_count ? g.tolerances : g.step_count;
     const size_t printed = g.printed ? g.printed->count : 0;
-    const size_t most = t->methods.count * (g.n_count * levels + printed) + 1;
+    const size_t finer = goal ? 2 * AROUND : 0;
+    const size_t most = t->methods.count * (g.n_count * levels + printed) + finer + 1;
     t->count = 0;
+    t->finer_n = !given->n_count;
+    t->finer_steps = !given->step_count && !given->tolerances;
     t->trial = br_allocate(most, sizeof *t->trial);
     t->front = br_allocate(most, sizeof *t->front);
     if (!t->trial || !t->front)

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a digit costs in one scene: trials of many methods at many resolutions, the Pareto front of
  * their errors and seconds, and the cheapest way to each error. Errors are relative: the norm of
- * the error over the norm of the solution. */
+ * the error over the norm of the solution.
+ *
+ * With a goal the trials begin with the cheapest ones and end where nothing cheaper is left; then
+ * come finer meshes and steps around the best two methods. */
 #ifndef BR_STUDY_TRADE_TRADE_H
 #define BR_STUDY_TRADE_TRADE_H
 
@@ -20,10 +23,19 @@ struct br_trade_grid {
     const struct br_printed *printed; /* the scene's printed table; NULL: none */
 };
 
+/* One of the two, or none; 0: not wanted. */
+struct br_trade_goal {
+    double error;   /* the cheapest trial with at most this relative error */
+    double seconds; /* the least error with at most these seconds of set-up and march */
+};
+
 struct br_trade {
     struct br_named_methods methods;
     struct br_trial_request request;
-    struct br_trial *trial; /* count, those of a named method together; owned */
+    struct br_trade_goal goal;
+    bool finer_n, finer_steps; /* whether a goal is searched between the meshes, the steps */
+    size_t chosen;             /* the trial for the goal; `count`: none reaches it */
+    struct br_trial *trial;    /* count, those of a named method together; owned */
     size_t count;
     bool *front;                  /* count: on the Pareto front of all; owned */
     size_t best[BR_TRADE_DIGITS]; /* the cheapest trial to each target; `count`: none */
@@ -35,7 +47,8 @@ struct br_trade {
 };
 
 /* Lists the trials of trade->methods. A default list is coarse and leaves out heavy trials; if both
- * lists are the defaults, the paper's method also gets the printed table's cells.
+ * lists are the defaults, the paper's method also gets the printed table's cells. With a goal the
+ * defaults are longer, and leave out nothing.
  * Fails with BR_NO_MEMORY, BR_BAD_INPUT (no trial at all). */
 enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_grid *grid,
                                 struct br_error *err);
@@ -43,7 +56,8 @@ enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_gr
 /* Forecasts the seconds of the trials by `request`. Fails as br_trials_foresee does. */
 enum br_status br_trade_foresee(struct br_trade *trade, struct br_error *err);
 
-/* Runs the trials and chooses the best. Fails as br_trials_run does. */
+/* Runs the trials and chooses the best; after br_trade_foresee. Fails as br_trials_run does, or
+ * with BR_BAD_INPUT: the reference's own error is not far below the goal. */
 enum br_status br_trade_run(struct br_trade *trade, struct br_error *err);
 void br_trade_clear(struct br_trade *trade);
 
@@ -53,8 +67,10 @@ bool br_trade_is_printed_method(const struct br_named_method *named);
 /* -log10 of the relative error, over the seconds; NaN: no trial that counts. */
 double br_trade_digits_per_second(const struct br_trial *trial);
 
-/* The value of --seconds that is enough for all trials, with a margin. */
-double br_trade_seconds_of_all(const struct br_trial_forecast *forecast);
+static inline bool br_trade_has_goal(const struct br_trade *trade)
+{
+    return trade->goal.error > 0 || trade->goal.seconds > 0;
+}
 
 /* The number of trials with this end. */
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
@@ -66,6 +82,11 @@ size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
  * none. */
 size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
                           const struct br_named_method *only);
+
+/* The trial for a goal, of one named method or of all (NULL); `count`: none reaches it. Of trials
+ * whose seconds differ by no more than the clock scatters, the one with the smallest error. */
+size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
+                          const struct br_trade_goal *goal, const struct br_named_method *only);
 
 /* Marks (out, count) the trials of the Pareto front: no other trial is better in error or seconds
  * and at least as good in the other; of equals the first is marked. The error of a slower trial

@@ -341,7 +341,8 @@ static void begin(struct br_trial *t)
 /* ---- errors ---- */
 
 /* Complete trials as cells of studies: one study for each mesh and degree, so that the judge
- * samples that mesh once. Each cell has its own method. All arrays are owned. */
+ * samples that mesh once, or more, where the time levels have too few in common. Each cell has its
+ * own method. All arrays are owned. */
 struct groups {
     size_t count, cells;
     struct br_study *study;
@@ -367,12 +368,16 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
         if (t->end == BR_TRIAL_DONE)
             g->member[g->cells++] = t;
     qsort(g->member, g->cells, sizeof(struct br_trial *), by_elements);
+    size_t levels = 0; /* of the study's cells */
     for (size_t c = 0; c < g->cells; c++) {
         const struct br_trial *t = g->member[c];
+        levels = c == 0 ? 0 : br_common_levels(levels, t->at.steps);
         struct br_study *s = &g->study[g->count - 1];
         g->steps[c] = t->at.steps;
         g->method[c] = br_trial_method(t);
-        if (c == 0 || t->at.n != *s->n || g->method[c].axial_degree != s->method.axial_degree) {
+        if (levels == 0 || t->at.n != *s->n ||
+            g->method[c].axial_degree != s->method.axial_degree) {
+            levels = t->at.steps;
             s = &g->study[g->count++];
             *s = (struct br_study){.scene = r->scene,
                                    .norm = r->norm,

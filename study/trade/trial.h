@@ -79,7 +79,7 @@ struct br_trial_forecast {
     size_t planned, left;
 };
 
-/* The work of a trial, s on the machine of the registry's costs: what `trade` and `plan` forecast by.
+/* The work of a trial, s on the machine of the registry's costs: what `trade` forecasts by.
  * Of an adaptive scheme its growth with n and the tolerance alone is right. */
 double br_trial_work(const struct br_scene *scene, const struct br_trial *trial);
 
