@@ -369,6 +369,23 @@ TEST(test_places)
     }
 }
 
+/* Many count cells along one side, so without a dimension they are those of a line. */
+TEST(test_cells_of_runs)
+{
+    static const double list[] = {4, 8, 16};
+    write_script("counting", "echo err=$1");
+    struct br_orders_request p = br_orders_request_default();
+    MUST(br_orders_request_reading(&p, "err", "err=(.*)", &err));
+    p.command = strdup(command_of("counting", "{cells}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){br_resolution_column_find("cells"),
+                                                     memcpy(malloc(sizeof list), list, sizeof list),
+                                                     3};
+    run(&p);
+    assert_true(numbers.assumed && numbers.dimension == 1);
+    CLOSE(numbers.row[2].z[BR_AXIS_SPACE], 1. / 16, 1e-15);
+    br_orders_request_clear(&p);
+}
+
 /* One run after the other: their times do not overlap. */
 TEST(test_times_of_repeated)
 {
