@@ -37,6 +37,7 @@ struct layout {
     size_t first, last;            /* rows, as lines */
     struct br_piece piece[WIDEST]; /* of the last line that was split */
     long gain[WIDEST];             /* by width: how well it explains the lines */
+    size_t names[WIDEST];          /* by width: lines without a number */
     bool skipped[WIDEST];          /* by column: the heading has no name of it */
     size_t has_number[WIDEST];     /* by column: the rows that have one there, or a missing one */
 };
@@ -58,10 +59,12 @@ static struct row look_at(struct layout *l, size_t line, char *room)
 }
 
 /* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
- * word costs one. Each line counts with and without its empty pieces at the end. */
+ * word costs one. Each line counts with and without its empty pieces at the end; a heading decides
+ * between the two. */
 static long measure(struct layout *l)
 {
     memset(l->gain, 0, sizeof l->gain);
+    memset(l->names, 0, sizeof l->names);
     l->width = 0;
     for (size_t i = 0; i < l->lines; i++) {
         if (i == SAMPLE && l->lines > 2 * SAMPLE)
@@ -75,10 +78,14 @@ static long measure(struct layout *l)
             filled--;
         l->gain[r.count] += more;
         l->gain[filled] += filled < r.count ? more : 0;
+        l->names[r.count] += !r.numbers;
     }
     size_t best = 1;
     for (size_t i = 1; i < WIDEST; i++)
-        best = l->gain[i] > l->gain[best] ? i : best;
+        best = l->gain[i] > l->gain[best] ||
+                       (l->gain[i] == l->gain[best] && l->names[i] > l->names[best])
+                   ? i
+                   : best;
     l->width = best;
     return l->gain[best];
 }

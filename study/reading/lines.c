@@ -28,13 +28,18 @@ static char plain_sign(const char *at, size_t *bytes)
     return upright ? BR_BOX_BAR : '-';
 }
 
+/* Quoted texts stay as they are, to the end of their line: they may be names. */
 static void make_plain(char *text)
 {
-    char *to = text;
-    for (size_t bytes; *text; text += bytes) {
+    char *to = text, before = '\n';
+    bool quoted = false;
+    for (size_t bytes; *text; before = text[bytes - 1], text += bytes) {
         bytes = 0;
-        const char sign =
-            *text == '\r' || (unsigned char)*text >= 0x80 ? plain_sign(text, &bytes) : 0;
+        if (*text == '"' || *text == '\n')
+            quoted = *text == '"' && !quoted && strchr("\n\t ,;|&", before);
+        const char sign = *text == '\r' || (!quoted && (unsigned char)*text >= 0x80)
+                              ? plain_sign(text, &bytes)
+                              : 0;
         if (!bytes) {
             *to++ = *text == '\r' ? '\n' : *text;
             bytes = 1;
