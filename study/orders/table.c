@@ -175,13 +175,8 @@ static enum br_status take_quantity(struct source *s, size_t group, size_t colum
     const char *of = name_of(c, column, position), *group_name = r->group_name[group];
     if (asprintf(&name, *group_name ? "%s [%s]" : "%s", of, group_name) < 0)
         return br_no_memory(err, "the table");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < quantity && !status; i++)
-        if (strcmp(name, n->quantity[i].name) == 0)
-            status = br_fail(err, BR_BAD_INPUT, "%s:%zu: the column '%s' is there twice",
-                             br_orders_path(s->request), s->fields.heading_line, of);
-    if (!status)
-        status = br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
+    const enum br_status status =
+        br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
     free(name);
     return status ? status : take_numbers(s, group, column, quantity, err);
 }

@@ -60,7 +60,7 @@ void br_decide_sort(const struct br_roles *r, const struct br_candidate *c, size
 
 static bool has_usual_name(const struct br_role_column *c, const struct br_resolution_column *s)
 {
-    return c->by_hand ? c->stated == s : br_name_odds(c->name, s) > 0.5;
+    return c->by_hand ? c->stated == s : br_odds(c, s) > 0.5;
 }
 
 /* Whether a column may state a resolution in this way, before its numbers are weighed. */
@@ -77,7 +77,7 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
         (!named && c->kind != BR_KIND_UNKNOWN))
         return false;
     if (named)
-        return s->axis == BR_AXIS_SPACE || br_name_odds(c->name, s) >= 4;
+        return s->axis == BR_AXIS_SPACE || br_odds(c, s) >= BR_USUAL_NAME;
     /* without a usual name */
     if (s->axis == BR_AXIS_TIME || strcmp(s->name, "dofs") == 0 || t->roles->columns > MOST_TRIED)
         return false;
@@ -92,7 +92,7 @@ static bool take_log_sizes(const struct br_roles *r, struct br_candidate *c)
         const double z = br_numbers_z(c->size.states, column->number[i], c->size.dimension);
         c->log_z[i] = r->dropped[i] ? (double)NAN : log(z);
         if (!r->dropped[i] && !isfinite(c->log_z[i]) && !column->by_hand &&
-            br_name_odds(column->name, c->size.states) <= 0.5)
+            br_odds(column, c->size.states) <= 0.5)
             return false;
     }
     return true;
@@ -155,7 +155,7 @@ static double plainness(const struct contest *t, const struct br_candidate *c)
     const struct br_role_column *column = &t->roles->column[c->size.column];
     return column->by_hand
                ? 99
-               : br_name_odds(column->name, c->size.states) - (c->size.states->is_volume ? 2 : 0);
+               : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
 }
 
 /* Of the ways in which these sizes are stated the plainest. */
@@ -276,7 +276,7 @@ static enum br_status check_counts(const struct contest *t, struct br_error *err
         const struct br_resolution_column *s = c->size.states;
         char name[80];
         if (s->is_size || s->is_power || !(column->least < 1) || !(column->least > 0) ||
-            !(column->by_hand || br_name_odds(column->name, s) >= 4))
+            !(column->by_hand || br_odds(column, s) >= BR_USUAL_NAME))
             continue;
         return br_fail(err, BR_BAD_INPUT,
                        "%s: %s: found %g, expected a count of at least 1: --column '%s=%s', if it "
@@ -300,7 +300,7 @@ static enum br_status check_direction(const struct contest *t, const struct br_c
         bool count = false;
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             count |=
-                !s->is_size && s->axis == t->axis && !c->by_hand && br_name_odds(c->name, s) >= 4;
+                !s->is_size && s->axis == t->axis && !c->by_hand && br_odds(c, s) >= BR_USUAL_NAME;
         if (!count || i == best->size.column || !c->is_whole || c->words || !(c->least < c->most) ||
             br_evidence_order(r, best, t->sorted, i) < 0.05)
             continue;
@@ -411,7 +411,7 @@ static const double *other_sizes(const struct br_roles *r, enum br_axis axis)
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (s->axis == BR_AXIS_SPACE && r->column[i].least < r->column[i].most &&
                 (r->column[i].by_hand ? r->column[i].stated == s
-                                      : br_name_odds(r->column[i].name, s) >= 4))
+                                      : br_odds(&r->column[i], s) >= BR_USUAL_NAME))
                 return r->column[i].number;
     return NULL;
 }
@@ -454,7 +454,7 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
         const struct br_candidate *best = best_of(&t, NULL);
         const struct br_role_column *c = best ? &r->column[best->size.column] : NULL;
         if (best && i == BR_AXIS_SPACE && r->size[BR_AXIS_TIME].states && !c->by_hand &&
-            (br_name_odds(c->name, best->size.states) < 2 ||
+            (br_odds(c, best->size.states) < 2 ||
              (best->contradicts_rates && time_gives_rates)))
             best = NULL;
         if (best && choose(&t, best, err))

@@ -75,6 +75,7 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
                                      const struct br_role_column *e, bool finer)
 {
     const double most = 0.06, least = 0.006; /* of a printed rate */
+    const double coarse = 0.15;              /* of the rate of two errors with few digits */
     const struct br_role_column *z = own(v);
     struct residual found = {0};
     struct pair p;
@@ -90,11 +91,13 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         if (isnan(rate->number[row]) || !isfinite(seen))
             continue;
         const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
+        found.worst = fmax(found.worst, off - fmin(most, fmax(least, of_digit(rate, row))) -
+                                            digits / p.ratio);
+        if (digits / p.ratio > coarse) /* too few digits to speak for the sizes */
+            continue;
         found.compared++;
         found.sum += off;
         found.whole = fmax(found.whole, off);
-        found.worst = fmax(found.worst, off - fmin(most, fmax(least, of_digit(rate, row))) -
-                                            fmin(0.15, digits / p.ratio));
     }
     return found;
 }
@@ -187,10 +190,7 @@ static bool grows_in(const struct view *v, double dimension)
 /* Whether the heading is a usual name of any size. */
 static bool has_usual_name(const struct view *v)
 {
-    bool usual = own(v)->by_hand;
-    for (const struct br_resolution_column *s = br_resolution_columns; s->name && !usual; s++)
-        usual = br_name_odds(own(v)->name, s) > 0.5;
-    return usual;
+    return own(v)->by_hand || own(v)->named > BR_ANY_NAME;
 }
 
 static double grows(const struct view *v)
@@ -354,8 +354,8 @@ static double has_a_second(const struct view *v)
             c->kind == BR_KIND_ERROR || c->words || !(c->least < c->most))
             continue;
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++) {
-            const bool named = br_name_odds(c->name, s) > 1.5;
-            if (!named && br_name_odds(own(v)->name, v->candidate->size.states) <= 0.5)
+            const bool named = br_odds(c, s) > 1.5;
+            if (!named && br_odds(own(v), v->candidate->size.states) <= 0.5)
                 continue; /* of two unknown columns one may have errors of order one */
             if (s->axis != BR_AXIS_SPACE || strcmp(s->name, "dofs") == 0 ||
                 !(named || (c->is_whole && !s->is_size && c->least >= 1)))
@@ -375,7 +375,7 @@ static double is_beside_a_size(const struct view *v)
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
-                c->least < c->most && c->numbers == v->roles->rows && br_name_odds(c->name, s) >= 4)
+                c->least < c->most && c->numbers == v->roles->rows && br_odds(c, s) >= BR_USUAL_NAME)
                 return 1;
     }
     return 0;
@@ -390,7 +390,7 @@ static double is_beside_cells(const struct view *v)
         struct pair p;
         double first = NAN;
         bool steady = i != v->candidate->size.column && c->is_whole && !c->words &&
-                      c->numbers == v->roles->rows && br_name_odds(c->name, cells) >= 4;
+                      c->numbers == v->roles->rows && br_odds(c, cells) >= BR_USUAL_NAME;
         for (size_t at = 0; steady && next_pair(v, &at, &p);) {
             const double ratio = c->number[p.fine] / c->number[p.coarse];
             first = isnan(first) ? ratio : first;
@@ -404,7 +404,7 @@ static double is_beside_cells(const struct view *v)
 
 static double name(const struct view *v)
 {
-    return br_name_odds(own(v)->name, v->candidate->size.states);
+    return br_odds(own(v), v->candidate->size.states);
 }
 
 static double by_hand(const struct view *v)

@@ -63,7 +63,8 @@ static char *split_unit(char *heading)
     const size_t length = strlen(heading);
     const char last = length ? heading[length - 1] : '\0';
     char *open = last == ']' ? strrchr(heading, '[') : last == ')' ? strrchr(heading, '(') : NULL;
-    if (!open || open == heading)
+    if (!open || open == heading || strchr("^*/", open[-1]) ||
+        (open - heading >= 3 && memcmp(open - 3, "qrt", 3) == 0)) /* a formula */
         return NULL;
     heading[length - 1] = '\0';
     char *end = open;
@@ -73,13 +74,13 @@ static char *split_unit(char *heading)
     return open[1] ? open + 1 : NULL;
 }
 
-/* Whether the name without its unit states a resolution, by a usual name. */
-static bool is_size_by_name(const char *name)
+static void weigh_name(struct br_role_column *c)
 {
-    for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
-        if (br_name_odds(name, s) >= 4)
-            return true;
-    return false;
+    c->named = 0;
+    for (int i = 0; i < BR_RESOLUTIONS; i++) {
+        c->odds[i] = br_name_odds(c->name, c->unit, &br_resolution_columns[i]);
+        c->named = c->by_hand ? 0 : fmax(c->named, c->odds[i]);
+    }
 }
 
 static enum br_status name_column(struct br_roles *r, size_t i, struct br_error *err)
@@ -96,7 +97,8 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
         return br_no_memory(err, "the table");
     c->name = name;
     c->unit = split_unit(name);
-    for (size_t j = 0; j < r->columns && c->unit && !is_size_by_name(name); j++)
+    weigh_name(c);
+    for (size_t j = 0; j < r->columns && c->unit && c->named < BR_USUAL_NAME; j++)
         if (j != i && r->fields->heading[j] &&
             strncmp(r->fields->heading[j], text, (size_t)(c->unit - name)) == 0) {
             strcpy(name, text); /* "L2(u)", "L2(p)": no units */
@@ -180,6 +182,7 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
 {
     const char *item;
     size_t length;
+    bool gci = false;
     for (size_t i = 0; i < r->columns; i++)
         if (name_column(r, i, err))
             return err->status;
@@ -190,12 +193,18 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
     }
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
+        weigh_name(c);
         if (c->name &&
             (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
-            !c->stated && !is_size_by_name(c->name))
+            !c->stated && c->named < BR_USUAL_NAME)
             c->role = BR_ROLE_ERROR;
         c->is_value = c->name && br_lists(r->wishes->values, c->name);
+        gci |= c->name && strcasestr(c->name, "gci");
     }
+    for (size_t i = 0; i < r->columns && gci; i++) /* r is the ratio of two sizes, p one order */
+        if (r->column[i].name && !r->column[i].name[1] && strchr("rp", *r->column[i].name) &&
+            !r->column[i].by_hand)
+            r->column[i].kind = BR_KIND_FACTOR;
     return BR_OK;
 }
 
@@ -246,7 +255,7 @@ static void find_rounding(struct br_roles *r, size_t column)
 static void read_numbers(struct br_roles *r, size_t column)
 {
     struct br_role_column *c = &r->column[column];
-    c->numbers = c->words = 0;
+    c->numbers = c->words = c->gaps = 0;
     c->is_whole = true;
     c->least = INFINITY;
     c->most = -INFINITY;
@@ -256,6 +265,11 @@ static void read_numbers(struct br_roles *r, size_t column)
         c->number[i] = c->deviation[i] = NAN;
         if (r->dropped[i] || br_field_is_missing(text))
             continue;
+        if (br_is_gap(text)) {
+            c->gaps++;
+            c->gap = text;
+            continue;
+        }
         if (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)) {
             c->words++;
             continue;
@@ -297,9 +311,16 @@ static void find_rates_without_a_name(struct br_roles *r)
     }
 }
 
-/* MOOSE writes a row of zeros before the first solution. */
+/* Rows without a field are none. MOOSE writes a row of zeros before the first solution. */
 static void drop_zeros(struct br_roles *r)
 {
+    for (size_t i = 0; i < r->rows; i++) {
+        bool empty = true;
+        for (size_t k = 0; k < r->columns && empty; k++)
+            empty = !field_at(r, i, k);
+        if (empty)
+            r->dropped[i] = "an empty row";
+    }
     bool zeros = r->columns > 2 && r->rows > 0;
     for (size_t i = 0; i < r->columns; i++)
         zeros = zeros && r->column[i].number[0] == 0;
@@ -316,7 +337,7 @@ enum br_status br_roles_check_words(const struct br_roles *r, size_t column, str
     struct br_field_number n;
     for (size_t i = 0; i < r->rows && c->words; i++) {
         const char *text = field_at(r, i, column);
-        if (!r->dropped[i] && !br_field_is_missing(text) &&
+        if (!r->dropped[i] && !br_field_is_missing(text) && !br_is_gap(text) &&
             (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)))
             return br_fail(
                 err, BR_BAD_INPUT,
@@ -331,7 +352,7 @@ static enum br_status check_sizes(const struct br_roles *r, struct br_error *err
 {
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
-        const bool size = c->stated || (c->name && !c->by_hand && is_size_by_name(c->name));
+        const bool size = c->stated || c->named >= BR_USUAL_NAME;
         if (size && (c->stated || c->numbers > c->words) && br_roles_check_words(r, i, err))
             return err->status;
     }
@@ -418,7 +439,7 @@ static bool a_size_repeats(const struct br_roles *r, size_t but)
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
         if (i == but || c->words || !(c->least < c->most) ||
-            !(c->stated || (c->name && !c->by_hand && is_size_by_name(c->name))))
+            !(c->stated || c->named >= BR_USUAL_NAME))
             continue;
         for (size_t a = 0; a < r->rows; a++)
             for (size_t b = 0; b < a; b++)
@@ -464,7 +485,7 @@ static bool tells_cases(const struct br_roles *r, size_t i)
         return c->numbers == 0;
     if (is_degree(r, c))
         return true;
-    return c->kind == BR_KIND_UNKNOWN && !(c->name && is_size_by_name(c->name)) &&
+    return c->kind == BR_KIND_UNKNOWN && c->named < BR_USUAL_NAME &&
            a_size_repeats(r, i);
 }
 
@@ -592,7 +613,7 @@ static const char *why_aside(const struct br_roles *r, size_t i)
         return "words among numbers";
     if (!(c->least < c->most))
         return "one number only";
-    if (c->name && is_size_by_name(c->name))
+    if (c->named >= BR_USUAL_NAME)
         return "another size";
     return r->wishes->errors || r->wishes->values ? "not asked for"
            : c->least < 0                         ? "both signs: --value, if it is studied"
@@ -601,13 +622,18 @@ static const char *why_aside(const struct br_roles *r, size_t i)
                            "it is studied";
 }
 
+static bool is_studied(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ERROR || c->role == BR_ROLE_VALUE;
+}
+
 /* The column whose deviations these are: it has the same words, or is the only one. */
 static size_t find_of(const struct br_roles *r, size_t deviations)
 {
     size_t found = BR_NO_ROW, count = 0;
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
-        if (c->role != BR_ROLE_ERROR && c->role != BR_ROLE_VALUE)
+        if (!is_studied(c))
             continue;
         if (c->name && r->column[deviations].name && strstr(r->column[deviations].name, c->name))
             return i;
@@ -626,7 +652,7 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
         if (c->role == BR_ROLE_SIZE || c->role == BR_ROLE_CASE || c->stated || c->why)
             continue;
         const bool by_hand = c->by_hand && c->kind == BR_KIND_UNKNOWN;
-        const bool named_size = c->name && !c->by_hand && is_size_by_name(c->name);
+        const bool named_size = c->named >= BR_USUAL_NAME;
         const bool studied =
             asked ? is_asked(r, c) && !named_size
                   : by_hand || (!named_size && c->numbers && c->role != BR_ROLE_DEGREE &&
@@ -644,6 +670,25 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE)
             r->column[i].why = why_aside(r, i);
+}
+
+/* Names errors of one heading apart: "l2", "l2 (2)". */
+static enum br_status number_names(struct br_roles *r, struct br_error *err)
+{
+    char text[220];
+    for (size_t i = r->columns; i-- > 0;) {
+        struct br_role_column *c = &r->column[i];
+        size_t count = 1;
+        for (size_t k = 0; k < i && c->name; k++)
+            count += is_studied(&r->column[k]) && r->column[k].name &&
+                     strcmp(r->column[k].name, c->name) == 0;
+        if (count == 1 || !is_studied(c))
+            continue;
+        snprintf(text, sizeof text, "%.190s (%zu)", c->name, count);
+        if (!(c->name = copy_text(r, text)))
+            return br_no_memory(err, "the table");
+    }
+    return BR_OK;
 }
 
 /* An error that halves exactly beside sizes that do not is a size, more likely. */
@@ -776,7 +821,7 @@ static enum br_status take_repeats(struct br_roles *r, struct br_error *err)
     if (!run)
         return br_no_memory(err, "the table");
     for (size_t i = 0; i < r->columns && error == BR_NO_ROW; i++)
-        if (r->column[i].role == BR_ROLE_ERROR || r->column[i].role == BR_ROLE_VALUE)
+        if (is_studied(&r->column[i]))
             error = i;
     for (size_t i = 0; i < r->rows && error != BR_NO_ROW; i++) {
         if (r->dropped[i])
@@ -802,7 +847,7 @@ static bool counts_volume(const struct br_roles *r)
     for (size_t i = 0; i < r->columns && !counts; i++)
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             counts |= s->is_volume &&
-                      (r->column[i].stated == s || br_name_odds(r->column[i].name, s) > 1);
+                      (r->column[i].stated == s || br_odds(&r->column[i], s) > 1);
     return counts;
 }
 
@@ -828,7 +873,7 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     if (!r->halves)
         br_evidence_weigh(r, &over, sorted);
     take_errors(r, &over, sorted);
-    return check_swap(r, &over, sorted, err) || take_repeats(r, err) ? err->status : BR_OK;
+    return number_names(r, err) || check_swap(r, &over, sorted, err) || take_repeats(r, err) ? err->status : BR_OK;
 }
 
 enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
