@@ -63,6 +63,17 @@ static bool has_usual_name(const struct br_role_column *c, const struct br_resol
     return c->by_hand ? c->stated == s : br_odds(c, s) > 0.5;
 }
 
+/* Whether steps hardly grow while unknowns or cells do: iterations of a solver. */
+static bool hardly_grows(const struct br_roles *r, const struct br_role_column *steps)
+{
+    bool grow = false;
+    for (size_t i = 0; i < r->columns && steps->least > 0; i++)
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+            grow |= s->is_volume && br_odds(&r->column[i], s) >= BR_USUAL_NAME &&
+                    r->column[i].most > 2 * r->column[i].least;
+    return grow && steps->most < 1.5 * steps->least;
+}
+
 /* Whether a column may state a resolution in this way, before its numbers are weighed. */
 static bool may_state(const struct contest *t, const struct br_role_column *c,
                       const struct br_resolution_column *s)
@@ -75,6 +86,8 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
         return c->stated == s;
     if (!(c->least < c->most) || (c->kind == BR_KIND_DEGREE && c->is_whole) ||
         (!named && c->kind != BR_KIND_UNKNOWN))
+        return false;
+    if (s->axis == BR_AXIS_TIME && !s->is_size && hardly_grows(t->roles, c))
         return false;
     if (named)
         return s->axis == BR_AXIS_SPACE || br_odds(c, s) >= BR_USUAL_NAME;

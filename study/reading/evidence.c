@@ -87,14 +87,14 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         const double seen = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
         const double of_sizes =
             z->is_whole ? 0 : fabs(seen) * (z->rounding[p.coarse] + z->rounding[p.fine]);
-        const double digits = e->rounding[p.coarse] + e->rounding[p.fine] + of_sizes;
+        const double digits = -log1p(-e->rounding[p.coarse]) - log1p(-e->rounding[p.fine]) + of_sizes;
         if (isnan(rate->number[row]) || !isfinite(seen))
             continue;
         const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
-        found.worst = fmax(found.worst, off - fmin(most, fmax(least, of_digit(rate, row))) -
-                                            digits / p.ratio);
-        if (digits / p.ratio > coarse) /* too few digits to speak for the sizes */
+        const double beyond = off - fmin(most, fmax(least, of_digit(rate, row)));
+        if (beyond > coarse && beyond <= digits / p.ratio) /* too few digits to tell */
             continue;
+        found.worst = fmax(found.worst, beyond - fmin(coarse, digits / p.ratio));
         found.compared++;
         found.sum += off;
         found.whole = fmax(found.whole, off);

@@ -726,6 +726,37 @@ static enum br_status check_swap(const struct br_roles *r, const struct br_candi
                    size->name ? size->name : "1", over->size.states->name);
 }
 
+/* Beside the iterations of a solver, an error that does not fall from mesh to mesh is one of the
+ * solver. */
+static enum br_status check_residuals(const struct br_roles *r, const size_t *sorted,
+                                      struct br_error *err)
+{
+    const struct br_resolution_column *steps = br_resolution_column_find("steps");
+    const char *iterations = NULL, *error = NULL;
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        bool rises = false;
+        if (c->role == BR_ROLE_ASIDE && c->name && c->numbers && !c->by_hand &&
+            (strcasestr(c->name, "iter") || br_odds(c, steps) >= BR_USUAL_NAME))
+            iterations = c->name;
+        if (!is_studied(c))
+            continue;
+        size_t last = 0;
+        for (; sorted[last + 1] != BR_NO_ROW; last++)
+            rises |= c->number[sorted[last + 1]] >= c->number[sorted[last]];
+        if (c->by_hand || c->is_value || r->wishes->errors || !rises ||
+            4 * c->number[sorted[last]] < c->number[sorted[0]])
+            return BR_OK;
+        error = c->name ? c->name : "it";
+    }
+    return iterations && error && r->groups == 1
+               ? br_fail(err, BR_BAD_INPUT,
+                         "%s: %s does not fall from mesh to mesh, beside iterations (%s): is it a "
+                         "residual of the solver? --error '%s' says that it is an error",
+                         r->wishes->path, error, iterations, error)
+               : BR_OK;
+}
+
 /* ---- rows of one size ---- */
 
 struct run {
@@ -873,7 +904,8 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     if (!r->halves)
         br_evidence_weigh(r, &over, sorted);
     take_errors(r, &over, sorted);
-    return number_names(r, err) || check_swap(r, &over, sorted, err) || take_repeats(r, err) ? err->status : BR_OK;
+    return number_names(r, err) || check_swap(r, &over, sorted, err) ||
+                   check_residuals(r, sorted, err) || take_repeats(r, err) ? err->status : BR_OK;
 }
 
 enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
