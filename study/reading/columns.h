@@ -19,7 +19,8 @@ struct br_resolution_column {
     int more;       /* intervals that a number of points has more than points: -1, or 1 */
 };
 enum { BR_RESOLUTIONS = 10 };
-extern const struct br_resolution_column br_resolution_columns[BR_RESOLUTIONS + 1]; /* ends with a NULL name */
+extern const struct br_resolution_column
+    br_resolution_columns[BR_RESOLUTIONS + 1]; /* ends with a NULL name */
 const struct br_resolution_column *br_resolution_column_find(const char *name);
 
 /* z of a number of the column. */

@@ -166,9 +166,8 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
 static double plainness(const struct contest *t, const struct br_candidate *c)
 {
     const struct br_role_column *column = &t->roles->column[c->size.column];
-    return column->by_hand
-               ? 99
-               : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
+    return column->by_hand ? 99
+                           : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
 }
 
 /* Of the ways in which these sizes are stated the plainest. */
@@ -467,8 +466,7 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
         const struct br_candidate *best = best_of(&t, NULL);
         const struct br_role_column *c = best ? &r->column[best->size.column] : NULL;
         if (best && i == BR_AXIS_SPACE && r->size[BR_AXIS_TIME].states && !c->by_hand &&
-            (br_odds(c, best->size.states) < 2 ||
-             (best->contradicts_rates && time_gives_rates)))
+            (br_odds(c, best->size.states) < 2 || (best->contradicts_rates && time_gives_rates)))
             best = NULL;
         if (best && choose(&t, best, err))
             return err->status;

@@ -87,7 +87,8 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         const double seen = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
         const double of_sizes =
             z->is_whole ? 0 : fabs(seen) * (z->rounding[p.coarse] + z->rounding[p.fine]);
-        const double digits = -log1p(-e->rounding[p.coarse]) - log1p(-e->rounding[p.fine]) + of_sizes;
+        const double digits =
+            -log1p(-e->rounding[p.coarse]) - log1p(-e->rounding[p.fine]) + of_sizes;
         if (isnan(rate->number[row]) || !isfinite(seen))
             continue;
         const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
@@ -261,7 +262,7 @@ static bool dips(const struct view *v, size_t column)
     size_t line = BR_NO_ROW;
     struct pair p;
     for (size_t at = 0; next_pair(v, &at, &p);) {
-        first = line == v->roles->line[p.coarse] ? first : fabs(e[p.coarse]);
+        first = line == v->roles->line[p.coarse] && !isnan(first) ? first : fabs(e[p.coarse]);
         line = v->roles->line[p.coarse];
         if (fabs(e[p.fine]) < 0.95 * first)
             return true;
@@ -358,7 +359,8 @@ static double has_a_second(const struct view *v)
             if (!named && br_odds(own(v), v->candidate->size.states) <= 0.5)
                 continue; /* of two unknown columns one may have errors of order one */
             if (s->axis != BR_AXIS_SPACE || strcmp(s->name, "dofs") == 0 ||
-                !(named || (c->is_whole && !s->is_size && c->least >= 1)))
+                !(named || (br_odds(c, br_resolution_columns) < BR_USUAL_NAME && c->is_whole &&
+                            !s->is_size && c->least >= 1)))
                 continue;
             for (int d = 1; d <= (s->is_volume ? 3 : 1); d++)
                 if (agrees(v, i, s, d))
@@ -375,7 +377,8 @@ static double is_beside_a_size(const struct view *v)
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
-                c->least < c->most && c->numbers == v->roles->rows && br_odds(c, s) >= BR_USUAL_NAME)
+                c->least < c->most && c->numbers == v->roles->rows &&
+                br_odds(c, s) >= BR_USUAL_NAME)
                 return 1;
     }
     return 0;

@@ -59,7 +59,8 @@ static const struct {
     {BR_KIND_RATE,
      " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
      "poc ordre ordnung ordem orden "},
-    {BR_KIND_FACTOR, " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "},
+    {BR_KIND_FACTOR,
+     " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
      "setup rhs solve solver assemble assembly mb gb mib gib nnz nonzeros threads ranks procs cores "
@@ -140,10 +141,11 @@ static bool without_letter(char text[LONGEST], const char *name, const char *col
 static bool is_of_a_side(const char *name)
 {
     char word[LONGEST];
-    while (next_word(&name, word))
-        if (lists(" per along direction side dim edge ", word))
-            return true;
-    return false;
+    size_t words = 0;
+    bool side = false;
+    for (; next_word(&name, word); words++)
+        side |= lists(" per along direction side dim edge ", word);
+    return side && words > 1;
 }
 
 /* The odds that a list gives a plain name; *most: of any column. */
@@ -203,7 +205,7 @@ static const char *formula_of(const char *name)
             continue;
         if (c->is_size)
             return !inverse || root ? NULL : time ? "steps" : "n";
-        return inverse ? time ? "dt" : "h" : "n";
+        return inverse ? time ? "dt" : "h" : c->is_volume && !lists(" n m ", text) ? "n" : NULL;
     }
     return NULL;
 }
@@ -279,9 +281,10 @@ bool br_is_gap(const char *text)
     char small[LONGEST];
     plain(text, small);
     return strcmp(text, ".") == 0 || strspn(text, "?") == strlen(text) ||
-           lists(" \xce\xb5 eps epsilon diverged diverges div notconverged noconvergence nc fail failed "
-                 "failure dnf oom timeout tbd ",
-                 small);
+           lists(
+               " \xce\xb5 eps epsilon diverged diverges div notconverged noconvergence nc fail failed "
+               "failure dnf oom timeout tbd ",
+               small);
 }
 
 enum br_kind br_kind_of(const char *name)
@@ -307,7 +310,8 @@ enum br_kind br_kind_of(const char *name)
             if (lists(of_kinds[i].words, word) &&
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
-    return found ? found : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
-           : strchr(name, '|') || strstr(name, "\\|")     ? BR_KIND_ERROR
-                                                          : BR_KIND_UNKNOWN;
+    return found                                            ? found
+           : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
+           : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR
+                                                            : BR_KIND_UNKNOWN;
 }

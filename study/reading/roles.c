@@ -476,17 +476,57 @@ static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
                            : (word || other) && is_consecutive(r, c) && c->most <= 20;
 }
 
-static bool tells_cases(const struct br_roles *r, size_t i)
+/* Whether a column follows from another: rows of one field there have one field here. */
+static bool follows(const struct br_roles *r, size_t column, size_t other)
+{
+    bool again = false;
+    for (size_t a = 0; a < r->rows; a++)
+        for (size_t b = 0; b < a; b++) {
+            if (r->dropped[a] || r->dropped[b] ||
+                strcmp(text_of(r, a, other), text_of(r, b, other)) != 0)
+                continue;
+            again = true;
+            if (strcmp(text_of(r, a, column), text_of(r, b, column)) != 0)
+                return false;
+        }
+    return again;
+}
+
+/* Whether a column tells cases apart: by words or degrees, or by other numbers. */
+static bool tells_cases(const struct br_roles *r, size_t i, bool by_numbers)
 {
     const struct br_role_column *c = &r->column[i];
+    const bool degree = is_degree(r, c);
     if (c->stated || c->why || c->role == BR_ROLE_ERROR || !count_cases(r, i))
         return false;
-    if (c->words)
-        return c->numbers == 0;
-    if (is_degree(r, c))
-        return true;
-    return c->kind == BR_KIND_UNKNOWN && c->named < BR_USUAL_NAME &&
-           a_size_repeats(r, i);
+    if (!by_numbers)
+        return c->words ? c->numbers == 0 : degree;
+    if (c->words || degree || c->kind != BR_KIND_UNKNOWN || c->named >= BR_USUAL_NAME ||
+        !a_size_repeats(r, i))
+        return false;
+    for (size_t k = 0; k < r->columns; k++)
+        if (k != i &&
+            (r->column[k].role == BR_ROLE_CASE || r->column[k].stated ||
+             r->column[k].named >= BR_USUAL_NAME) &&
+            follows(r, i, k))
+            return false;
+    return true;
+}
+
+/* Numbers that tell studies apart may be anything: one study is to be chosen. */
+static enum br_status ask_where(const struct br_roles *r, size_t i, struct br_error *err)
+{
+    const char *name = r->column[i].name ? r->column[i].name : "it";
+    char position[24], item[240], quoted[300];
+    size_t row = 0;
+    while (r->dropped[row])
+        row++;
+    snprintf(position, sizeof position, "%zu", i + 1);
+    snprintf(item, sizeof item, "%.100s=%.100s", r->column[i].name ? name : position,
+             text_of(r, row, i));
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: sizes repeat, and %s tells several studies apart: --where %s chooses one",
+                   r->wishes->path, name, br_quoted(quoted, sizeof quoted, &br_for_shell, item));
 }
 
 /* "method = P1, degree = 2" */
@@ -504,8 +544,11 @@ static const char *name_group(struct br_roles *r, size_t row)
 static enum br_status find_cases(struct br_roles *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->columns; i++)
-        if (tells_cases(r, i))
+        if (tells_cases(r, i, false))
             r->column[i].role = BR_ROLE_CASE;
+    for (size_t i = 0; i < r->columns; i++)
+        if (tells_cases(r, i, true))
+            return ask_where(r, i, err);
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role != BR_ROLE_CASE && is_degree(r, &r->column[i]))
             r->column[i].role = BR_ROLE_DEGREE;
@@ -877,8 +920,7 @@ static bool counts_volume(const struct br_roles *r)
     bool counts = !chosen || chosen->is_volume;
     for (size_t i = 0; i < r->columns && !counts; i++)
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
-            counts |= s->is_volume &&
-                      (r->column[i].stated == s || br_odds(&r->column[i], s) > 1);
+            counts |= s->is_volume && (r->column[i].stated == s || br_odds(&r->column[i], s) > 1);
     return counts;
 }
 
@@ -905,7 +947,9 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
         br_evidence_weigh(r, &over, sorted);
     take_errors(r, &over, sorted);
     return number_names(r, err) || check_swap(r, &over, sorted, err) ||
-                   check_residuals(r, sorted, err) || take_repeats(r, err) ? err->status : BR_OK;
+                   check_residuals(r, sorted, err) || take_repeats(r, err)
+               ? err->status
+               : BR_OK;
 }
 
 enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,

@@ -45,11 +45,11 @@ struct br_role_column {
     enum br_kind kind;
     double odds[BR_RESOLUTIONS]; /* of its name, for each way to state a resolution */
     double named;                /* the greatest of them */
-    double *number, *deviation; /* rows; NaN: none */
-    double *rounding;           /* half a unit of the last digit, relative */
+    double *number, *deviation;  /* rows; NaN: none */
+    double *rounding;            /* half a unit of the last digit, relative */
     size_t numbers, words, gaps; /* how many fields are one or the other; gaps: "diverged" */
     const char *gap;             /* the last */
-    bool is_whole, is_value;    /* is_value: --value says that its limit is not known */
+    bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
     double least, most;
 
     bool by_hand;                              /* --column says what it is */
