@@ -271,7 +271,7 @@ static void list_left(struct source *s)
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
     char name[24];
-    s->numbers->left = br_store_take(&s->numbers->store, r->columns + r->rows + f->lefts + 1,
+    s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
@@ -279,9 +279,14 @@ static void list_left(struct source *s)
             say(s, r->column[i].name ? "%s" : "column %s", name_of(&r->column[i], i, name));
             leave(s, r->column[i].why);
         }
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].gaps) {
+            say(s, "%s: '%s'", name_of(&r->column[i], i, name), r->column[i].gap);
+            leave(s, "not a number");
+        }
     for (size_t i = 0; i < r->rows; i++)
         if (r->dropped[i]) {
-            say(s, "line %zu", f->line[i]);
+            say(s, f->line[i] ? "line %zu" : "row %zu", f->line[i] ? f->line[i] : i + 1);
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
@@ -300,7 +305,8 @@ static void say_left(struct source *s)
     for (size_t first = 0, end; first < n->lefts; first = end) {
         for (end = first + 1; end < n->lefts && n->left[end].why == n->left[first].why;)
             end++;
-        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0;
+        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0 ||
+                           strncmp(n->left[first].what, "row ", 4) == 0;
         const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
         for (size_t i = first; i < named; i++)
             say(s, "%s%s",
@@ -381,14 +387,20 @@ static enum br_status make_room(struct source *s, struct br_error *err)
 /* There are no errors: a column may have values. */
 static enum br_status refuse_values(const struct source *s, struct br_error *err)
 {
-    char why[300], name[200] = "NAME", text[24];
+    const struct br_role_column *found = NULL;
+    char why[400], name[200] = "NAME", text[24], where[80] = "";
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
-        if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
-            quoted(name_of(c, i, text), name);
+        if (c->role != BR_ROLE_ASIDE || !c->why || !strstr(c->why, "--value"))
+            continue;
+        quoted(name_of(c, i, text), name);
+        found = c;
     }
-    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known)",
-             name);
+    for (size_t i = 0; found && i < s->roles.rows && !*where; i++)
+        if (found->number[i] < 0)
+            snprintf(where, sizeof where, ": line %zu has %g", s->fields.line[i], found->number[i]);
+    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known%s)",
+             name, where);
     return br_roles_refuse(&s->roles, why, NULL, err);
 }
 

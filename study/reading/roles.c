@@ -513,7 +513,7 @@ static bool tells_cases(const struct br_roles *r, size_t i, bool by_numbers)
     return true;
 }
 
-/* Numbers that tell studies apart may be anything: one study is to be chosen. */
+/* Several columns of numbers tell studies apart: one is to be chosen. */
 static enum br_status ask_where(const struct br_roles *r, size_t i, struct br_error *err)
 {
     const char *name = r->column[i].name ? r->column[i].name : "it";
@@ -546,9 +546,15 @@ static enum br_status find_cases(struct br_roles *r, struct br_error *err)
     for (size_t i = 0; i < r->columns; i++)
         if (tells_cases(r, i, false))
             r->column[i].role = BR_ROLE_CASE;
+    size_t by_numbers = BR_NO_ROW;
     for (size_t i = 0; i < r->columns; i++)
-        if (tells_cases(r, i, true))
-            return ask_where(r, i, err);
+        if (tells_cases(r, i, true)) {
+            if (by_numbers != BR_NO_ROW)
+                return ask_where(r, by_numbers, err);
+            by_numbers = i;
+        }
+    if (by_numbers != BR_NO_ROW)
+        r->column[by_numbers].role = BR_ROLE_CASE;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role != BR_ROLE_CASE && is_degree(r, &r->column[i]))
             r->column[i].role = BR_ROLE_DEGREE;
@@ -775,6 +781,8 @@ static enum br_status check_residuals(const struct br_roles *r, const size_t *so
                                       struct br_error *err)
 {
     const struct br_resolution_column *steps = br_resolution_column_find("steps");
+    if (sorted[0] == BR_NO_ROW)
+        return BR_OK;
     const char *iterations = NULL, *error = NULL;
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
