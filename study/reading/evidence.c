@@ -384,27 +384,6 @@ static double is_beside_a_size(const struct view *v)
     return 0;
 }
 
-/* Unknowns, beside cells that grow by one factor. */
-static double is_beside_cells(const struct view *v)
-{
-    const struct br_resolution_column *cells = br_resolution_column_find("cells");
-    for (size_t i = 0; i < v->roles->columns && has_name(v, "dofs"); i++) {
-        const struct br_role_column *c = &v->roles->column[i];
-        struct pair p;
-        double first = NAN;
-        bool steady = i != v->candidate->size.column && c->is_whole && !c->words &&
-                      c->numbers == v->roles->rows && br_odds(c, cells) >= BR_USUAL_NAME;
-        for (size_t at = 0; steady && next_pair(v, &at, &p);) {
-            const double ratio = c->number[p.fine] / c->number[p.coarse];
-            first = isnan(first) ? ratio : first;
-            steady = ratio > 1 && fabs(ratio / first - 1) < 0.02;
-        }
-        if (steady && first > 1)
-            return 1;
-    }
-    return 0;
-}
-
 static double name(const struct view *v)
 {
     return br_odds(own(v), v->candidate->size.states);
@@ -438,7 +417,6 @@ static const struct {
     {halves, 0.75, "its sizes halve"},
     {counts_up, -4, "levels count by one"},
     {has_a_second, 3, "another column states the same sizes"},
-    {is_beside_cells, -3, "cells beside the unknowns state the mesh"},
     {is_beside_a_size, -4, "another column is called h, n or level"},
     {some_fall, 0.5, "something falls with its sizes"},
     {grow_all, -3, "all that may be errors grows where its sizes fall"},
@@ -485,14 +463,9 @@ static bool falls(const struct error_view *e)
     return dips(&e->v, e->column);
 }
 
-static bool grows_finer(const struct error_view *e)
-{
-    return climbs(&e->v, e->column);
-}
-
 static bool is_count(const struct error_view *e)
 {
-    return grows_finer(e) && tried(e)->is_whole && tried(e)->most > 1;
+    return climbs(&e->v, e->column) && tried(e)->is_whole && tried(e)->most > 1;
 }
 
 static bool stays(const struct error_view *e)
@@ -510,19 +483,6 @@ static bool has_words(const struct error_view *e)
     return tried(e)->numbers <= tried(e)->words;
 }
 
-static bool gives_rates(const struct error_view *e)
-{
-    for (size_t i = 0; i < e->v.roles->columns; i++) {
-        const struct br_role_column *c = &e->v.roles->column[i];
-        if (c->kind == BR_KIND_RATE && may_have_errors(&e->v, e->column)) {
-            const struct residual found = compare_column(&e->v, c, e->column);
-            if (found.compared > 1 && found.worst <= 0)
-                return true;
-        }
-    }
-    return false;
-}
-
 static const struct {
     bool (*holds)(const struct error_view *e);
     double log_odds;
@@ -531,8 +491,6 @@ static const struct {
     {is_error_by_name, 3.5, "its heading"},
     {is_of_another_kind, -5, "its heading is of a rate, a cost, a deviation or a degree"},
     {falls, 1.5, "it falls with the sizes"},
-    {gives_rates, 6, "its rates are in the table"},
-    {grows_finer, -2, "it grows"},
     {is_count, -4, "it counts"},
     {stays, -2.5, "it hardly changes"},
     {has_a_sign, -9, "it has both signs"},
