@@ -22,12 +22,6 @@ struct source {
     bool no_memory;
 };
 
-static const char *name_of(const struct br_role_column *c, size_t column, char text[24])
-{
-    snprintf(text, 24, "%zu", column + 1);
-    return c->name ? c->name : text;
-}
-
 /* ---- rows ---- */
 
 struct key {
@@ -171,8 +165,8 @@ static enum br_status take_quantity(struct source *s, size_t group, size_t colum
     const struct br_roles *r = &s->roles;
     const struct br_role_column *c = &r->column[column];
     const size_t quantity = n->quantities;
-    char position[24], *name;
-    const char *of = name_of(c, column, position), *group_name = r->group_name[group];
+    char *name;
+    const char *of = c->label, *group_name = r->group_name[group];
     if (asprintf(&name, *group_name ? "%s [%s]" : "%s", of, group_name) < 0)
         return br_no_memory(err, "the table");
     const enum br_status status =
@@ -234,7 +228,7 @@ static void say_sizes(struct source *s, enum br_axis axis)
 {
     const struct br_roles *r = &s->roles;
     const struct br_size *size = &r->size[axis];
-    char name[24], text[200];
+    char text[200];
     if (!size->states)
         return;
     if (r->halves) {
@@ -242,7 +236,7 @@ static void say_sizes(struct source *s, enum br_axis axis)
         return;
     }
     say(s, "%s%s from column %s", s->text ? ", " : "", size->states->states,
-        quoted(name_of(&r->column[size->column], size->column, name), text));
+        quoted(r->column[size->column].label, text));
     if (size->states->is_volume)
         say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
 }
@@ -250,11 +244,11 @@ static void say_sizes(struct source *s, enum br_axis axis)
 static void say_columns(struct source *s, enum br_role role, const char *what)
 {
     const struct br_roles *r = &s->roles;
-    char name[24], text[200];
+    char text[200];
     size_t said = 0;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == role)
-            say(s, "%s%s", said++ ? ", " : what, quoted(name_of(&r->column[i], i, name), text));
+            say(s, "%s%s", said++ ? ", " : what, quoted(r->column[i].label, text));
 }
 
 static void leave(struct source *s, const char *why)
@@ -270,18 +264,17 @@ static void list_left(struct source *s)
 {
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
-    char name[24];
     s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
-            say(s, r->column[i].name ? "%s" : "column %s", name_of(&r->column[i], i, name));
+            say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
         }
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].gaps) {
-            say(s, "%s: '%s'", name_of(&r->column[i], i, name), r->column[i].gap);
+            say(s, "%s: '%s'", r->column[i].label, r->column[i].gap);
             leave(s, "not a number");
         }
     for (size_t i = 0; i < r->rows; i++)
@@ -388,12 +381,12 @@ static enum br_status make_room(struct source *s, struct br_error *err)
 static enum br_status refuse_values(const struct source *s, struct br_error *err)
 {
     const struct br_role_column *found = NULL;
-    char why[400], name[200] = "NAME", text[24], where[80] = "";
+    char why[400], name[200] = "NAME", where[80] = "";
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
         if (c->role != BR_ROLE_ASIDE || !c->why || !strstr(c->why, "--value"))
             continue;
-        quoted(name_of(c, i, text), name);
+        quoted(c->label, name);
         found = c;
     }
     for (size_t i = 0; found && i < s->roles.rows && !*where; i++)

@@ -193,6 +193,8 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
     }
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
+        snprintf(c->position, sizeof c->position, "%zu", i + 1);
+        c->label = c->name ? c->name : c->position;
         weigh_name(c);
         if (c->name &&
             (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
@@ -342,7 +344,7 @@ enum br_status br_roles_check_words(const struct br_roles *r, size_t column, str
             return br_fail(
                 err, BR_BAD_INPUT,
                 "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",
-                r->wishes->path, r->fields->line[i], c->name ? c->name : "a number", text);
+                r->wishes->path, r->fields->line[i], c->label, text);
     }
     return BR_OK;
 }
@@ -391,8 +393,8 @@ static enum br_status take_where(struct br_roles *r, struct br_error *err)
             r->dropped[i] = "--where chooses others";
     if (!kept)
         return br_fail(err, BR_BAD_INPUT, "%s: --where: no row has %s = '%s', as line %zu has '%s'",
-                       r->wishes->path, r->column[column].name ? r->column[column].name : "it",
-                       equals + 1, r->rows ? r->fields->line[0] : 0,
+                       r->wishes->path, r->column[column].label, equals + 1,
+                       r->rows ? r->fields->line[0] : 0,
                        r->rows && field_at(r, 0, column) ? field_at(r, 0, column) : "");
     for (size_t i = 0; i < r->columns; i++)
         read_numbers(r, i);
@@ -516,17 +518,15 @@ static bool tells_cases(const struct br_roles *r, size_t i, bool by_numbers)
 /* Several columns of numbers tell studies apart: one is to be chosen. */
 static enum br_status ask_where(const struct br_roles *r, size_t i, struct br_error *err)
 {
-    const char *name = r->column[i].name ? r->column[i].name : "it";
-    char position[24], item[240], quoted[300];
+    char item[240], quoted[300];
     size_t row = 0;
     while (r->dropped[row])
         row++;
-    snprintf(position, sizeof position, "%zu", i + 1);
-    snprintf(item, sizeof item, "%.100s=%.100s", r->column[i].name ? name : position,
-             text_of(r, row, i));
+    snprintf(item, sizeof item, "%.100s=%.100s", r->column[i].label, text_of(r, row, i));
     return br_fail(err, BR_BAD_INPUT,
                    "%s: sizes repeat, and %s tells several studies apart: --where %s chooses one",
-                   r->wishes->path, name, br_quoted(quoted, sizeof quoted, &br_for_shell, item));
+                   r->wishes->path, r->column[i].label,
+                   br_quoted(quoted, sizeof quoted, &br_for_shell, item));
 }
 
 /* "method = P1, degree = 2" */
@@ -734,7 +734,7 @@ static enum br_status number_names(struct br_roles *r, struct br_error *err)
         if (count == 1 || !is_studied(c))
             continue;
         snprintf(text, sizeof text, "%.190s (%zu)", c->name, count);
-        if (!(c->name = copy_text(r, text)))
+        if (!(c->label = c->name = copy_text(r, text)))
             return br_no_memory(err, "the table");
     }
     return BR_OK;
@@ -767,12 +767,11 @@ static enum br_status check_swap(const struct br_roles *r, const struct br_candi
     free(log_z);
     if (!swapped)
         return BR_OK;
-    const char *error = r->column[i - 1].name ? r->column[i - 1].name : "an error";
     return br_fail(err, BR_BAD_INPUT,
                    "%s: %s halves exactly, and the sizes in %s do not: are the two swapped? "
                    "--column '%s=%s' says that they are not",
-                   r->wishes->path, error, size->name ? size->name : "their column",
-                   size->name ? size->name : "1", over->size.states->name);
+                   r->wishes->path, r->column[i - 1].label, size->label, size->label,
+                   over->size.states->name);
 }
 
 /* Beside the iterations of a solver, an error that does not fall from mesh to mesh is one of the
@@ -798,7 +797,7 @@ static enum br_status check_residuals(const struct br_roles *r, const size_t *so
         if (c->by_hand || c->is_value || r->wishes->errors || !rises ||
             4 * c->number[sorted[last]] < c->number[sorted[0]])
             return BR_OK;
-        error = c->name ? c->name : "it";
+        error = c->label;
     }
     return iterations && error && r->groups == 1
                ? br_fail(err, BR_BAD_INPUT,

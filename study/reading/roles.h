@@ -42,6 +42,8 @@ bool br_is_gap(const char *text);
 struct br_role_column {
     const char *shown;       /* the heading in the source; NULL: there is none */
     const char *name, *unit; /* without its unit, or as --column names it; NULL: none */
+    const char *label;       /* its name, or its position from 1 on */
+    char position[24];
     enum br_kind kind;
     double odds[BR_RESOLUTIONS]; /* of its name, for each way to state a resolution */
     double named;                /* the greatest of them */
