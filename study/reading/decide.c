@@ -190,11 +190,7 @@ enum { TEXT = 400 };
 static const char *shown_name(const struct br_roles *r, size_t column, char text[80])
 {
     const struct br_role_column *c = &r->column[column];
-    if (!c->name) {
-        snprintf(text, 80, "%zu", column + 1);
-        return text;
-    }
-    return br_quoted(text, 80, &br_for_text, c->shown ? c->shown : c->name);
+    return br_quoted(text, 80, &br_for_text, c->shown ? c->shown : c->label);
 }
 
 /* "h = N^(-1/2) from N" */
