@@ -878,7 +878,7 @@ static const struct planted_bug planted_bugs[] = {
      "if (count >= 1 || !is_studied(c))"},
     {"studies_are_mixed", "wrong", "study/reading/roles.c", "tests/test_orders test_kinds_of_tables",
      "if (by_numbers != BR_NO_ROW)\n                return ask_where",
-     "if (by_numbers == 0)\n                return ask_where"},
+     "if (by_numbers == BR_NO_ROW - 1)\n                return ask_where"},
     {"brackets_are_units", "lost", "study/reading/roles.c", "tests/test_orders test_foreign_tables",
      "c->unit && c->named < BR_USUAL_NAME; j++)",
      "c->unit && !name; j++)"},
