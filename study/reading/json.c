@@ -198,7 +198,8 @@ static void drop_count(struct source *s, json_t *table)
     struct br_field_number number;
     bool counts = true;
     json_array_foreach(json_object_get(table, ""), i, value) counts &=
-        br_field_read(json_string_value(value), '.', &number) && number.value == (double)i;
+        json_is_string(value) && br_field_read(json_string_value(value), '.', &number) &&
+        number.value == (double)i;
     if (counts)
         json_object_del(table, "");
     s->fields->columns = json_object_size(table);

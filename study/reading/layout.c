@@ -21,6 +21,8 @@ struct row {
     bool is_row, is_used;
 };
 
+enum { WIDEST = BR_MOST_COLUMNS + 3 /* pieces */, SAMPLE = 100 /* lines at each end */ };
+
 struct layout {
     const char *path;
     const struct br_observer *observer;
@@ -29,19 +31,20 @@ struct layout {
     struct br_line *line;
     struct row *row; /* by line */
     size_t lines;
-    struct br_piece *piece; /* of the last line that was split */
-    char *room;             /* for the longest line */
+    char *room; /* for the longest line */
     enum br_separator by;
-    size_t width;
-    bool *skipped;      /* by column: the heading has no name of it */
-    size_t *has_number; /* by column: the rows that have one there, or a missing one */
-    size_t first, last; /* rows, as lines */
+    size_t width, rows;
+    size_t first, last;            /* rows, as lines */
+    struct br_piece piece[WIDEST]; /* of the last line that was split */
+    long gain[WIDEST];             /* by width: how well it explains the lines */
+    bool skipped[WIDEST];          /* by column: the heading has no name of it */
+    size_t has_number[WIDEST];     /* by column: the rows that have one there, or a missing one */
 };
 
 /* ---- the way to separate fields ---- */
 
 /* Splits a line into l->piece. Empty pieces behind the width are none. */
-static struct row look_at(const struct layout *l, size_t line, char *room)
+static struct row look_at(struct layout *l, size_t line, char *room)
 {
     struct row r = {.piece = l->piece};
     r.count = br_line_split(l->line[line].text, l->by, l->fields->mark, room, l->piece);
@@ -54,13 +57,11 @@ static struct row look_at(const struct layout *l, size_t line, char *room)
     return r;
 }
 
-enum { SAMPLE = 100 /* lines at each end of the text */ };
-
 /* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
  * word costs one. Each line counts with and without its empty pieces at the end. */
-static long measure(struct layout *l, long *gain)
+static long measure(struct layout *l)
 {
-    memset(gain, 0, (BR_MOST_COLUMNS + 3) * sizeof *gain);
+    memset(l->gain, 0, sizeof l->gain);
     l->width = 0;
     for (size_t i = 0; i < l->lines; i++) {
         if (i == SAMPLE && l->lines > 2 * SAMPLE)
@@ -72,43 +73,40 @@ static long measure(struct layout *l, long *gain)
         size_t filled = r.count;
         while (filled > 1 && l->piece[filled - 1].content == BR_NOTHING)
             filled--;
-        gain[r.count] += more;
-        gain[filled] += filled < r.count ? more : 0;
+        l->gain[r.count] += more;
+        l->gain[filled] += filled < r.count ? more : 0;
     }
     size_t best = 1;
-    for (size_t i = 1; i < BR_MOST_COLUMNS + 3; i++)
-        best = gain[i] > gain[best] ? i : best;
+    for (size_t i = 1; i < WIDEST; i++)
+        best = l->gain[i] > l->gain[best] ? i : best;
     l->width = best;
-    return gain[best];
+    return l->gain[best];
 }
 
 /* Chooses the way. Where none has numbers, the first line tells the widest. Refuses lines that are
  * too wide, before anything takes time. */
-static enum br_status choose(struct layout *l, size_t first, long *gain)
+static enum br_status choose(struct layout *l, size_t first)
 {
-    struct layout best = *l;
-    char mark = '.';
     long most = 0;
-    size_t widest = 0;
+    size_t widest = 0, width = 0;
+    int best = 0;
     for (int i = 0; i < 2 * BR_SEPARATORS; i++) {
         l->by = (enum br_separator)(i / 2);
         l->fields->mark = ".,"[i % 2];
-        const long score = measure(l, gain);
-        l->width = score ? l->width : 0;
-        if (i / 2 >= BR_BY_TABS && !most && !score) {
-            const size_t count = look_at(l, first, l->room).count;
-            widest = count > widest ? count : widest;
+        const long score = measure(l);
+        if (score > most && (i % 2 == 0 || l->width > 1)) {
+            most = score;
+            best = i;
+            width = l->width;
         }
-        if (score <= most || (i % 2 && l->width == 1))
-            continue;
-        most = score;
-        mark = l->fields->mark;
-        best = *l;
+        const size_t count = l->by < BR_BY_TABS ? 0 : look_at(l, first, l->room).count;
+        widest = count > widest ? count : widest;
     }
-    *l = best;
-    l->fields->mark = mark;
-    const bool wide = l->width > BR_MOST_COLUMNS || (!l->width && widest > BR_MOST_COLUMNS);
-    return l->width && !wide
+    l->by = (enum br_separator)(best / 2);
+    l->fields->mark = ".,"[best % 2];
+    l->width = l->fields->columns = width;
+    const bool wide = width > BR_MOST_COLUMNS || (!width && widest > BR_MOST_COLUMNS);
+    return width && !wide
                ? BR_OK
                : br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s", l->path, l->line[first].number,
                          wide ? "more than 1000 columns, expected fewer" : "no row of numbers");
@@ -117,7 +115,7 @@ static enum br_status choose(struct layout *l, size_t first, long *gain)
 /* ---- rows ---- */
 
 /* Splits all lines, and counts the numbers of columns. */
-static enum br_status split_lines(struct layout *l, size_t *rows)
+static enum br_status split_lines(struct layout *l)
 {
     struct br_store *store = &l->fields->store;
     for (size_t i = 0; i < l->lines; i++) {
@@ -136,13 +134,13 @@ static enum br_status split_lines(struct layout *l, size_t *rows)
         memcpy(r->piece, l->piece, r->count * sizeof *r->piece);
         if (r->count != l->width || !r->numbers)
             continue;
-        if (++*rows > BR_MOST_TABLE_ROWS)
+        if (++l->rows > BR_MOST_TABLE_ROWS)
             return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found row %zu, expected at most %d",
-                           l->path, l->line[i].number, *rows, BR_MOST_TABLE_ROWS);
-        if (*rows * l->width > BR_MOST_FIELDS)
+                           l->path, l->line[i].number, l->rows, BR_MOST_TABLE_ROWS);
+        if (l->rows * l->width > BR_MOST_FIELDS)
             return br_fail(l->err, BR_BAD_INPUT,
                            "%s:%zu: found row %zu of %zu fields, expected at most %d fields in all",
-                           l->path, l->line[i].number, *rows, l->width, BR_MOST_FIELDS);
+                           l->path, l->line[i].number, l->rows, l->width, BR_MOST_FIELDS);
         for (size_t c = 0; c < l->width; c++)
             l->has_number[c] +=
                 r->piece[c].content == BR_NUMBER || r->piece[c].content == BR_MISSING;
@@ -151,24 +149,23 @@ static enum br_status split_lines(struct layout *l, size_t *rows)
 }
 
 /* Whether a line has numbers in half of the columns of numbers, or nothing at all. */
-static bool is_like_rows(const struct layout *l, const struct row *r, size_t rows)
+static bool is_like_rows(const struct layout *l, const struct row *r)
 {
     size_t all = 0, there = 0;
     for (size_t c = 0; c < l->width && r->count == l->width; c++) {
-        all += 2 * l->has_number[c] > rows;
-        there += 2 * l->has_number[c] > rows && r->piece[c].content < BR_WORD;
+        all += 2 * l->has_number[c] > l->rows;
+        there += 2 * l->has_number[c] > l->rows && r->piece[c].content < BR_WORD;
     }
     return r->count == l->width && 2 * there >= all && (r->numbers || !r->words);
 }
 
 static enum br_status find_rows(struct layout *l)
 {
-    size_t rows = 0;
-    if (split_lines(l, &rows))
+    if (split_lines(l))
         return l->err->status;
     l->first = l->lines;
     for (size_t i = 0; i < l->lines; i++) {
-        l->row[i].is_row = l->line[i].kind == BR_LINE_TEXT && is_like_rows(l, &l->row[i], rows);
+        l->row[i].is_row = l->line[i].kind == BR_LINE_TEXT && is_like_rows(l, &l->row[i]);
         l->first = l->row[i].is_row && l->first == l->lines ? i : l->first;
         l->last = l->row[i].is_row ? i : l->last;
     }
@@ -224,18 +221,15 @@ static bool has_other_words(const struct layout *l, size_t line)
  * short. */
 static void find_ends(struct layout *l)
 {
-    for (size_t next; l->first < l->last && !l->row[next = next_text(l, l->first, 1)].is_row &&
-                      has_other_words(l, l->first);) {
+    while (l->first < l->last && !l->row[next_text(l, l->first, 1)].is_row &&
+           has_other_words(l, l->first)) {
         l->row[l->first].is_row = false;
-        while (!l->row[next].is_row)
-            next = next_text(l, next, 1);
-        l->first = next;
+        while (!l->row[l->first].is_row)
+            l->first = next_text(l, l->first, 1);
     }
-    while (l->last > l->first && l->has_number[0] && is_summary(&l->row[l->last]) &&
-           next_text(l, l->last, -1) < l->lines) {
-        l->row[l->last].is_row = false;
-        l->last = next_text(l, l->last, -1);
-    }
+    while (l->last > l->first && l->has_number[0] && is_summary(&l->row[l->last]))
+        for (l->row[l->last].is_row = false; !l->row[l->last].is_row;)
+            l->last = next_text(l, l->last, -1);
     const size_t above = next_text(l, l->first, -1), below = next_text(l, l->last, 1);
     l->first = is_short(l, above) ? above : l->first;
     l->last = is_short(l, below) ? below : l->last;
@@ -305,24 +299,16 @@ static bool is_rate(const char *name)
     return kind == BR_KIND_RATE || kind == BR_KIND_FACTOR;
 }
 
-static size_t count_rows(const struct layout *l)
-{
-    size_t rows = 0;
-    for (size_t i = l->first; i <= l->last; i++)
-        rows += l->row[i].is_row;
-    return rows;
-}
-
 /* Whether a row has the size of the first one again: a number that the second row does not have,
  * beside the same words. */
-static bool begins_again(const struct layout *l, size_t line, size_t rows)
+static bool begins_again(const struct layout *l, size_t line)
 {
     bool again = false;
     const struct row *first = &l->row[l->first], *next = &l->row[next_text(l, l->first, 1)];
     for (size_t i = 0; i < l->width; i++) {
         const char *const text = first->piece[i].text;
         const bool is_same = strcmp(text, l->row[line].piece[i].text) == 0;
-        if (2 * l->has_number[i] <= rows && !is_same)
+        if (2 * l->has_number[i] <= l->rows && !is_same)
             return false;
         again |= is_same && !br_field_is_missing(text) && !is_rate(l->fields->heading[i]) &&
                  (i >= next->count || strcmp(text, next->piece[i].text) != 0);
@@ -333,10 +319,9 @@ static bool begins_again(const struct layout *l, size_t line, size_t rows)
 /* Refuses rows that begin again behind a gap or a rule: a table of its own. */
 static enum br_status check_blocks(const struct layout *l)
 {
-    const size_t rows = count_rows(l);
     for (size_t i = l->first + 1; i <= l->last && l->row[l->first].count == l->width; i++)
         if (l->row[i].is_row && l->line[i].number > l->line[next_text(l, i, -1)].number + 1 &&
-            begins_again(l, i, rows))
+            begins_again(l, i))
             return br_fail(l->err, BR_BAD_INPUT,
                            "%s:%zu: found rows that begin again as on line %zu, expected one table",
                            l->path, l->line[i].number, l->line[l->first].number);
@@ -360,7 +345,7 @@ static bool has_index(const struct layout *l)
 }
 
 /* Which columns begin with a gap, as those of rates do (l->skipped); returns how many. */
-static size_t find_gaps(const struct layout *l)
+static size_t find_gaps(struct layout *l)
 {
     const struct row *r = &l->row[l->first];
     size_t gaps = 0;
@@ -369,12 +354,12 @@ static size_t find_gaps(const struct layout *l)
                         (r->piece[i].content == BR_MISSING && *r->piece[i].text == '-');
         gaps += l->skipped[i];
     }
-    return r->count == l->width || count_rows(l) > 1 ? gaps : 0;
+    return r->count == l->width || l->rows > 1 ? gaps : 0;
 }
 
 /* Splits a line in the way of the rows or another one, so that it has `wanted` pieces (l->piece).
  */
-static bool split_names(const struct layout *l, size_t line, size_t wanted)
+static bool split_names(struct layout *l, size_t line, size_t wanted)
 {
     const char *const text = l->line[line].text;
     char *room = br_store_take(&l->fields->store, BR_ROOM(text), 1);
@@ -430,7 +415,7 @@ static bool take_short_heading(struct layout *l, size_t above)
     const struct row *r = &l->row[above];
     if (find_gaps(l) && take_names(l, above))
         return true;
-    memset(l->skipped, 0, l->width * sizeof *l->skipped);
+    memset(l->skipped, 0, sizeof l->skipped);
     const size_t title = next_text(l, above, -1);
     const bool is_index = l->by >= BR_BY_WIDE_BLANKS && r->count == 1 && !r->numbers &&
                           title < l->lines && !l->row[title].numbers;
@@ -531,10 +516,9 @@ static enum br_status join_groups(struct layout *l, size_t line)
 static bool has_names_in_row(const struct layout *l)
 {
     bool words = false;
-    const size_t rows = count_rows(l);
     const struct row *r = &l->row[l->first];
-    for (size_t i = 0; i < l->width && rows > 2 && r->count == l->width; i++)
-        words |= r->piece[i].content >= BR_WORD && l->has_number[i] + 1 >= rows;
+    for (size_t i = 0; i < l->width && l->rows > 2 && r->count == l->width; i++)
+        words |= r->piece[i].content >= BR_WORD && l->has_number[i] + 1 >= l->rows;
     return words;
 }
 
@@ -547,20 +531,15 @@ static bool is_title(const struct layout *l, size_t line)
            (l->by >= BR_BY_WIDE_BLANKS && l->line[line].number + 1 < l->line[l->first].number);
 }
 
-/* Names in the rows. */
-static enum br_status name_pairs(struct layout *l)
-{
-    for (size_t i = 0; i < l->width; i++)
-        l->fields->heading[i] = l->row[l->first].piece[i].name;
-    l->fields->heading_line = l->line[l->first].number;
-    return BR_OK;
-}
-
 static enum br_status find_heading(struct layout *l)
 {
     const size_t above = next_text(l, l->first, -1), first = l->first;
+    for (size_t i = 0; i < l->width && l->by <= BR_BY_COLONS; i++) {
+        l->fields->heading[i] = l->row[first].piece[i].name;
+        l->fields->heading_line = l->line[first].number;
+    }
     if (l->by <= BR_BY_COLONS)
-        return name_pairs(l);
+        return BR_OK;
     if (above < l->lines && take_names(l, above)) {
         const size_t group = next_text(l, above, -1);
         return group < l->lines ? join_groups(l, group) : BR_OK;
@@ -631,49 +610,35 @@ static enum br_status take_row(struct layout *l, size_t line, size_t *column)
 /* Whether a column has fractions. */
 static bool has_fractions(const struct br_fields *f, size_t column)
 {
-    for (size_t i = 0; i < f->rows; i++) {
-        const char *const text = f->field[i * f->columns + column];
-        if (text && strchr(text, f->mark))
-            return true;
-    }
-    return false;
+    bool fractions = false;
+    for (size_t i = column; i < f->rows * f->columns && !fractions; i += f->columns)
+        fractions = f->field[i] && strchr(f->field[i], f->mark);
+    return fractions;
 }
 
-/* Refuses a number whose sign before decimals is not the table's. The other sign may stand before
- * thousands: with commas for decimals, in counts only. */
-static enum br_status check_mark(const struct layout *l, size_t field, bool *doubtful)
-{
-    const struct br_fields *f = l->fields;
-    const char *const text = f->field[field], other = f->mark == '.' ? ',' : '.';
-    struct br_field_number number;
-    if (!strchr(text, other) || strspn(text, "+-0123456789.,eE") < strlen(text))
-        return BR_OK;
-    const bool reads = br_field_read(text, f->mark, &number);
-    *doubtful = reads && strlen(strchr(text, other)) == 4;
-    if (reads ? f->mark == '.' || !has_fractions(f, field % f->columns)
-              : !br_field_read(text, other, &number) && !strchr(text, f->mark))
-        return BR_OK;
-    return br_fail(l->err, BR_BAD_INPUT,
-                   "%s:%zu: found '%.40s' beside numbers with '%c', expected one sign before "
-                   "decimals, and none before thousands",
-                   l->path, f->line[field / f->columns], text, f->mark);
-}
-
-/* Refuses commas that may stand before decimals or before thousands, and two signs. */
+/* Refuses numbers whose sign before decimals is not the table's. The other sign may stand before
+ * thousands: a point in counts only, a comma beside points. */
 static enum br_status check_marks(const struct layout *l)
 {
     const struct br_fields *f = l->fields;
+    const char other = f->mark == '.' ? ',' : '.';
     size_t doubt = 0;
     bool points = f->mark == ',';
     for (size_t i = 0; i < f->rows * f->columns; i++) {
-        bool doubtful = false;
-        if (!f->field[i])
+        const char *const text = f->field[i] ? f->field[i] : "";
+        struct br_field_number number;
+        const size_t line = f->line[i / f->columns], digits = strspn(text, "+-0123456789.");
+        points |= memchr(text, '.', digits) != NULL;
+        if (!strchr(text, other) || strspn(text, "+-0123456789.,eE") < strlen(text))
             continue;
-        const char *const at = strchr(f->field[i], '.');
-        points |= at && strspn(f->field[i], "+-0123456789.") >= (size_t)(at - f->field[i]);
-        if (check_mark(l, i, &doubtful))
-            return l->err->status;
-        doubt = doubt || !doubtful ? doubt : f->line[i / f->columns];
+        const bool reads = br_field_read(text, f->mark, &number);
+        if (reads ? f->mark == ',' && has_fractions(f, i % f->columns)
+                  : br_field_read(text, other, &number) || strchr(text, f->mark))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found '%.40s' beside numbers with '%c', expected one sign "
+                           "before decimals, and none before thousands",
+                           l->path, line, text, f->mark);
+        doubt = doubt || !reads || strlen(strchr(text, other)) != 4 ? doubt : line;
     }
     return !doubt || points
                ? BR_OK
@@ -767,18 +732,11 @@ static enum br_status lay_out(struct layout *l)
         return br_fail(l->err, BR_BAD_INPUT, "%s:1: the table is empty", l->path);
     l->row = br_store_take(store, l->lines + 1, sizeof *l->row);
     l->room = br_store_take(store, longest, 1);
-    l->piece = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *l->piece);
-    l->has_number = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *l->has_number);
-    l->skipped = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *l->skipped);
     l->fields->left = br_store_take(store, l->lines, sizeof *l->fields->left);
-    l->fields->heading = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *l->fields->heading);
-    long *gain = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *gain);
+    l->fields->heading = br_store_take(store, WIDEST, sizeof *l->fields->heading);
     if (store->failed)
         return br_no_memory(l->err, "the table");
-    if (choose(l, first, gain))
-        return l->err->status;
-    l->fields->columns = l->width;
-    if (find_rows(l))
+    if (choose(l, first) || find_rows(l))
         return l->err->status;
     find_ends(l);
     const enum br_status status = find_heading(l);
@@ -794,17 +752,19 @@ enum br_status br_fields_read(const char *text, const char *path,
                               const struct br_observer *observer, struct br_fields *fields,
                               struct br_error *err)
 {
-    struct layout l = {.path = path, .observer = observer, .err = err, .fields = fields};
     *fields = (struct br_fields){.mark = '.'};
     err->status = BR_OK;
     if (br_json_is_table(text))
         return br_json_fields(text, path, fields, err);
+    struct layout *l = br_store_take(&fields->store, 1, sizeof *l);
     char *copy = br_store_take(&fields->store, strlen(text) + 1, 1);
-    if (!copy)
+    if (!l || !copy)
         return br_no_memory(err, "the table");
+    *l = (struct layout){.path = path, .observer = observer, .err = err, .fields = fields};
     strcpy(copy, text);
-    enum br_status status = br_lines_cut(copy, path, &fields->store, &l.line, &l.lines, err);
-    return status ? status : lay_out(&l);
+    const enum br_status status =
+        br_lines_cut(copy, path, &fields->store, &l->line, &l->lines, err);
+    return status ? status : lay_out(l);
 }
 
 void br_fields_clear(struct br_fields *fields)

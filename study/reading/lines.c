@@ -149,8 +149,10 @@ static char *comment_in(char *line)
     const char *first = line + strspn(line, " \t|\x01\"+-.");
     equals = equals ? equals + 1 + strspn(equals + 1, " +-.") : "";
     char *const sign = strchr("#%!", *line) ? NULL : strstr(line, " #");
-    return sign && (isdigit((unsigned char)*first) || isdigit((unsigned char)*equals)) ? sign + 1
-                                                                                       : NULL;
+    return sign && !strchr(sign, '"') &&
+                   (isdigit((unsigned char)*first) || isdigit((unsigned char)*equals))
+               ? sign + 1
+               : NULL;
 }
 
 /* Adds a line, or several: rows of LaTeX, a comment behind a row; returns how many. */
@@ -299,16 +301,26 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
     return false;
 }
 
+/* The end of a norm, "||u||", that a piece begins with; NULL: there is none. */
+static const char *norm_end(const char *at)
+{
+    const bool begins = strncmp(at, "||", 2) == 0 && isalpha((unsigned char)at[2]);
+    const char *const end = begins ? strchr(at + 2, '|') : NULL;
+    return end && end[1] == '|' ? end + 2 : NULL;
+}
+
 static void split_signs(struct splitter *s, const char *at)
 {
     const enum br_separator by = s->by;
     size_t bytes = 0;
-    const bool bars = by == BR_BY_BARS || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
-    at += (bars && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
+    const bool bars = by == BR_BY_BARS;
+    const bool begins = bars || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
+    at += (begins && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
     for (bool more = true; more && s->count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
-        const char *const begin = at, *end = quoted_end(at, by);
+        const char *const begin = at, *end = bars ? norm_end(at) : NULL;
+        end = end ? end : quoted_end(at, by);
         at = end ? end : at;
         while (*at && !(ends_piece(begin, at, by, &bytes) &&
                         !(by == BR_BY_BLANKS && is_in_number(begin, at, bytes))))
@@ -368,17 +380,14 @@ static bool add_label(struct splitter *s, const char *at, const char *end)
 
 /* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
  * numbers between or behind them are no pairs. */
-static void split_pairs(struct splitter *s, const char *at, char sign)
+static bool split_pairs(struct splitter *s, const char *at, char sign)
 {
-    const size_t none = 0;
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
     for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
         const char *name = begin_of_name(at, equals), *end = equals;
         const size_t before = s->count;
-        if (add_label(s, at, name) && (before > 0 || name - at > 60)) {
-            s->count = none;
-            return;
-        }
+        if (add_label(s, at, name) && (before > 0 || name - at > 60))
+            return false;
         while (end > name && is_blank(end[-1]))
             end--;
         const char *const value = equals + 1 + strspn(equals + 1, " \t");
@@ -387,13 +396,10 @@ static void split_pairs(struct splitter *s, const char *at, char sign)
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
         add_piece(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
-        if (strspn(name, " +-.0123456789") >= (size_t)(end - name)) {
-            s->count = none; /* a time, as 12:30 */
-            return;
-        }
+        if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
+            return false; /* a time, as 12:30 */
     }
-    if (s->count && add_label(s, at, at + strlen(at)))
-        s->count = none;
+    return !add_label(s, at, at + strlen(at));
 }
 
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
@@ -401,8 +407,7 @@ size_t br_line_split(const char *line, enum br_separator by, char mark, char *ro
 {
     struct splitter s = {by, mark, room, piece, 0};
     if (by <= BR_BY_COLONS)
-        split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':');
-    else
-        split_signs(&s, line);
+        return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
+    split_signs(&s, line);
     return s.count;
 }

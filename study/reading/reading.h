@@ -16,7 +16,7 @@
 struct br_left_line {
     size_t line;
     const char *text; /* one line, without the blanks around it */
-    const char *why;  /* "title", "footer", "comment", "summary"; static */
+    const char *why;  /* "title", "footer", "comment", "summary", "between rows" ...; static */
 };
 
 struct br_fields {
