@@ -262,6 +262,7 @@ static void leave(struct source *s, const char *why)
 /* Lists all that is left aside. */
 static void list_left(struct source *s)
 {
+    char text[32];
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
     s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
@@ -279,7 +280,7 @@ static void list_left(struct source *s)
         }
     for (size_t i = 0; i < r->rows; i++)
         if (r->dropped[i]) {
-            say(s, f->line[i] ? "line %zu" : "row %zu", f->line[i] ? f->line[i] : i + 1);
+            say(s, "%s", br_row_place(f, i, text));
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
@@ -381,7 +382,7 @@ static enum br_status make_room(struct source *s, struct br_error *err)
 static enum br_status refuse_values(const struct source *s, struct br_error *err)
 {
     const struct br_role_column *found = NULL;
-    char why[400], name[200] = "NAME", where[80] = "";
+    char why[400], name[200] = "NAME", where[80] = "", text[32];
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
         if (c->role != BR_ROLE_ASIDE || !c->why || !strstr(c->why, "--value"))
@@ -391,7 +392,8 @@ static enum br_status refuse_values(const struct source *s, struct br_error *err
     }
     for (size_t i = 0; found && i < s->roles.rows && !*where; i++)
         if (found->number[i] < 0)
-            snprintf(where, sizeof where, ": line %zu has %g", s->fields.line[i], found->number[i]);
+            snprintf(where, sizeof where, ": %s has %g", br_row_place(&s->fields, i, text),
+                     found->number[i]);
     snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known%s)",
              name, where);
     return br_roles_refuse(&s->roles, why, NULL, err);

@@ -21,6 +21,13 @@ static char *copy_text(struct br_roles *r, const char *text)
     return copy ? strcpy(copy, text) : NULL;
 }
 
+char *br_row_place(const struct br_fields *f, size_t row, char text[32])
+{
+    snprintf(text, 32, f->line[row] ? "line %zu" : "row %zu",
+             f->line[row] ? f->line[row] : row + 1);
+    return text;
+}
+
 enum br_status br_roles_refuse(const struct br_roles *r, const char *why, const char *word,
                                struct br_error *err)
 {
@@ -378,6 +385,7 @@ static enum br_status take_where(struct br_roles *r, struct br_error *err)
 {
     const char *where = r->wishes->where, *equals = where ? strchr(where, '=') : NULL;
     size_t kept = 0, column = BR_NO_ROW;
+    char place[32];
     if (!where)
         return BR_OK;
     while (equals && (column = find_column(r, where, (size_t)(equals - where))) == BR_NO_ROW)
@@ -392,9 +400,9 @@ static enum br_status take_where(struct br_roles *r, struct br_error *err)
         else if (!r->dropped[i])
             r->dropped[i] = "--where chooses others";
     if (!kept)
-        return br_fail(err, BR_BAD_INPUT, "%s: --where: no row has %s = '%s', as line %zu has '%s'",
+        return br_fail(err, BR_BAD_INPUT, "%s: --where: no row has %s = '%s', as %s has '%s'",
                        r->wishes->path, r->column[column].label, equals + 1,
-                       r->rows ? r->fields->line[0] : 0,
+                       r->rows ? br_row_place(r->fields, 0, place) : "none",
                        r->rows && field_at(r, 0, column) ? field_at(r, 0, column) : "");
     for (size_t i = 0; i < r->columns; i++)
         read_numbers(r, i);
@@ -846,12 +854,15 @@ static double scatter_of(const struct run *run, size_t first, size_t end)
 static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_t before,
                                      struct br_error *err)
 {
-    return br_fail(
-        err, BR_BAD_INPUT,
-        "%s:%zu: the resolution is that of line %zu, expected each once: --where chooses "
-        "one of several studies, by a column that tells them apart; of repeated runs, "
-        "give the mean, or each size at least twice",
-        r->wishes->path, r->fields->line[row], r->fields->line[before]);
+    char place[32], other[32];
+    const bool lines = r->fields->line[row];
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s%s%s: the resolution is that of %s, expected each once: --where chooses "
+                   "one of several studies, by a column that tells them apart; of repeated runs, "
+                   "give the mean, or each size at least twice",
+                   r->wishes->path, lines ? ":" : ": ",
+                   br_row_place(r->fields, row, place) + (lines ? strlen("line ") : 0),
+                   br_row_place(r->fields, before, other));
 }
 
 /* Runs of one size: of repeated runs the mean counts, of adaptive meshes the last. */

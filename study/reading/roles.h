@@ -118,6 +118,9 @@ void br_roles_clear(struct br_roles *roles); /* accepts zeros */
 enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
                                struct br_error *err);
 
+/* "line 3"; "row 2" of a source without lines. Returns text. */
+char *br_row_place(const struct br_fields *fields, size_t row, char text[32]);
+
 /* Refuses a field of words in a column of numbers. */
 enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
                                     struct br_error *err);

@@ -125,7 +125,7 @@ static struct br_other_interval middle(double *number, size_t n)
     qsort(number, n, sizeof *number, by_size);
     return n < 10 ? none
                   : (struct br_other_interval){number[(size_t)(0.025 * (double)(n - 1))],
-                                         number[(size_t)ceil(0.975 * (double)(n - 1))]};
+                                               number[(size_t)ceil(0.975 * (double)(n - 1))]};
 }
 
 /* The order or the limit of fits to the fitted line with its own residuals drawn again. */
