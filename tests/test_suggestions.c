@@ -399,10 +399,11 @@ static void say_reading(const char *frame, const char *word, char *answer, size_
 TEST(words_of_orders)
 {
     struct list headings = {{"mesh_width", "l2_error", "pressure"}, 3};
+    struct list errors = {{"l2_error", "pressure"}, 2}; /* a resolution is none */
     struct list prefixes = {{"json:", "csv:", "last:", "stderr:", "file:"}, 5};
     try_place(say_study, "\"%s\": 1\n", 19, true);
     try_list(&headings, &headings, say_column, "%s=h", true);
-    try_list(&headings, &headings, say_column, "%s", true);
+    try_list(&errors, &errors, say_column, "%s", true);
     for (size_t i = 0; i < prefixes.count; i++) { /* the colon is no letter of the word */
         char *colon = strchr(prefixes.word[i], ':');
         struct list one = {0};

@@ -11,7 +11,7 @@
 
 #include "solver/proof.h"
 #include "study/base/words.h"
-#include "study/scene/resolution.h"
+#include "study/grid/study.h"
 
 /* A load or initial data: exactly one of load, force and data is set. */
 struct input {

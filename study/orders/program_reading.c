@@ -387,6 +387,9 @@ static enum br_status search_csv(struct search *s)
     if (status)
         status = status == BR_BAD_INPUT ? refuse(s, "%s", why.message)
                                         : br_fail(s->err, status, "%s", why.message);
+    else if (!columns && strstr(s->output, s->reading->what)) /* one row with a gap is no table */
+        status = refuse(s, "found nothing below '%s', expected a number",
+                        shown(buffer, s->reading->what));
     else if (columns != 1)
         status = refuse(s, "found %zu columns '%s' in the heading, expected one", columns,
                         shown(buffer, s->reading->what));

@@ -22,12 +22,6 @@ struct source {
     bool no_memory;
 };
 
-static const char *name_of(const struct br_role_column *c, size_t column, char text[24])
-{
-    snprintf(text, 24, "%zu", column + 1);
-    return c->name ? c->name : text;
-}
-
 /* ---- rows ---- */
 
 struct key {
@@ -171,17 +165,12 @@ static enum br_status take_quantity(struct source *s, size_t group, size_t colum
     const struct br_roles *r = &s->roles;
     const struct br_role_column *c = &r->column[column];
     const size_t quantity = n->quantities;
-    char position[24], *name;
-    const char *of = name_of(c, column, position), *group_name = r->group_name[group];
+    char *name;
+    const char *of = c->label, *group_name = r->group_name[group];
     if (asprintf(&name, *group_name ? "%s [%s]" : "%s", of, group_name) < 0)
         return br_no_memory(err, "the table");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < quantity && !status; i++)
-        if (strcmp(name, n->quantity[i].name) == 0)
-            status = br_fail(err, BR_BAD_INPUT, "%s:%zu: the column '%s' is there twice",
-                             br_orders_path(s->request), s->fields.heading_line, of);
-    if (!status)
-        status = br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
+    const enum br_status status =
+        br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
     free(name);
     return status ? status : take_numbers(s, group, column, quantity, err);
 }
@@ -239,7 +228,7 @@ static void say_sizes(struct source *s, enum br_axis axis)
 {
     const struct br_roles *r = &s->roles;
     const struct br_size *size = &r->size[axis];
-    char name[24], text[200];
+    char text[200];
     if (!size->states)
         return;
     if (r->halves) {
@@ -247,7 +236,7 @@ static void say_sizes(struct source *s, enum br_axis axis)
         return;
     }
     say(s, "%s%s from column %s", s->text ? ", " : "", size->states->states,
-        quoted(name_of(&r->column[size->column], size->column, name), text));
+        quoted(r->column[size->column].label, text));
     if (size->states->is_volume)
         say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
 }
@@ -255,11 +244,11 @@ static void say_sizes(struct source *s, enum br_axis axis)
 static void say_columns(struct source *s, enum br_role role, const char *what)
 {
     const struct br_roles *r = &s->roles;
-    char name[24], text[200];
+    char text[200];
     size_t said = 0;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == role)
-            say(s, "%s%s", said++ ? ", " : what, quoted(name_of(&r->column[i], i, name), text));
+            say(s, "%s%s", said++ ? ", " : what, quoted(r->column[i].label, text));
 }
 
 static void leave(struct source *s, const char *why)
@@ -273,20 +262,25 @@ static void leave(struct source *s, const char *why)
 /* Lists all that is left aside. */
 static void list_left(struct source *s)
 {
+    char text[32];
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
-    char name[24];
-    s->numbers->left = br_store_take(&s->numbers->store, r->columns + r->rows + f->lefts + 1,
+    s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
-            say(s, r->column[i].name ? "%s" : "column %s", name_of(&r->column[i], i, name));
+            say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
+        }
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].gaps) {
+            say(s, "%s: '%s'", r->column[i].label, r->column[i].gap);
+            leave(s, "not a number");
         }
     for (size_t i = 0; i < r->rows; i++)
         if (r->dropped[i]) {
-            say(s, "line %zu", f->line[i]);
+            say(s, "%s", br_row_place(f, i, text));
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
@@ -305,7 +299,8 @@ static void say_left(struct source *s)
     for (size_t first = 0, end; first < n->lefts; first = end) {
         for (end = first + 1; end < n->lefts && n->left[end].why == n->left[first].why;)
             end++;
-        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0;
+        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0 ||
+                           strncmp(n->left[first].what, "row ", 4) == 0;
         const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
         for (size_t i = first; i < named; i++)
             say(s, "%s%s",
@@ -386,14 +381,21 @@ static enum br_status make_room(struct source *s, struct br_error *err)
 /* There are no errors: a column may have values. */
 static enum br_status refuse_values(const struct source *s, struct br_error *err)
 {
-    char why[300], name[200] = "NAME", text[24];
+    const struct br_role_column *found = NULL;
+    char why[400], name[200] = "NAME", where[80] = "", text[32];
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
-        if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
-            quoted(name_of(c, i, text), name);
+        if (c->role != BR_ROLE_ASIDE || !c->why || !strstr(c->why, "--value"))
+            continue;
+        quoted(c->label, name);
+        found = c;
     }
-    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known)",
-             name);
+    for (size_t i = 0; found && i < s->roles.rows && !*where; i++)
+        if (found->number[i] < 0)
+            snprintf(where, sizeof where, ": %s has %g", br_row_place(&s->fields, i, text),
+                     found->number[i]);
+    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known%s)",
+             name, where);
     return br_roles_refuse(&s->roles, why, NULL, err);
 }
 

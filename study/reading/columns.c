@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-const struct br_resolution_column br_resolution_columns[] = {
+const struct br_resolution_column br_resolution_columns[BR_RESOLUTIONS + 1] = {
     {"h", "h", BR_AXIS_SPACE, .is_size = true},
     {"n", "h = 1/n", BR_AXIS_SPACE, .is_size = false},
     {"points", "h = 1/(points - 1)", BR_AXIS_SPACE, .more = -1},

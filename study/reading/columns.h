@@ -18,7 +18,9 @@ struct br_resolution_column {
     bool is_power;  /* z is 2^-number; where all are false, one over the number and `more` */
     int more;       /* intervals that a number of points has more than points: -1, or 1 */
 };
-extern const struct br_resolution_column br_resolution_columns[]; /* ends with a NULL name */
+enum { BR_RESOLUTIONS = 10 };
+extern const struct br_resolution_column
+    br_resolution_columns[BR_RESOLUTIONS + 1]; /* ends with a NULL name */
 const struct br_resolution_column *br_resolution_column_find(const char *name);
 
 /* z of a number of the column. */

@@ -60,7 +60,18 @@ void br_decide_sort(const struct br_roles *r, const struct br_candidate *c, size
 
 static bool has_usual_name(const struct br_role_column *c, const struct br_resolution_column *s)
 {
-    return c->by_hand ? c->stated == s : br_name_odds(c->name, s) > 0.5;
+    return c->by_hand ? c->stated == s : br_odds(c, s) > 0.5;
+}
+
+/* Whether steps hardly grow while unknowns or cells do: iterations of a solver. */
+static bool hardly_grows(const struct br_roles *r, const struct br_role_column *steps)
+{
+    bool grow = false;
+    for (size_t i = 0; i < r->columns && steps->least > 0; i++)
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+            grow |= s->is_volume && br_odds(&r->column[i], s) >= BR_USUAL_NAME &&
+                    r->column[i].most > 2 * r->column[i].least;
+    return grow && steps->most < 1.5 * steps->least;
 }
 
 /* Whether a column may state a resolution in this way, before its numbers are weighed. */
@@ -76,8 +87,10 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
     if (!(c->least < c->most) || (c->kind == BR_KIND_DEGREE && c->is_whole) ||
         (!named && c->kind != BR_KIND_UNKNOWN))
         return false;
+    if (s->axis == BR_AXIS_TIME && !s->is_size && hardly_grows(t->roles, c))
+        return false;
     if (named)
-        return s->axis == BR_AXIS_SPACE || br_name_odds(c->name, s) >= 4;
+        return s->axis == BR_AXIS_SPACE || br_odds(c, s) >= BR_USUAL_NAME;
     /* without a usual name */
     if (s->axis == BR_AXIS_TIME || strcmp(s->name, "dofs") == 0 || t->roles->columns > MOST_TRIED)
         return false;
@@ -92,7 +105,7 @@ static bool take_log_sizes(const struct br_roles *r, struct br_candidate *c)
         const double z = br_numbers_z(c->size.states, column->number[i], c->size.dimension);
         c->log_z[i] = r->dropped[i] ? (double)NAN : log(z);
         if (!r->dropped[i] && !isfinite(c->log_z[i]) && !column->by_hand &&
-            br_name_odds(column->name, c->size.states) <= 0.5)
+            br_odds(column, c->size.states) <= 0.5)
             return false;
     }
     return true;
@@ -153,9 +166,8 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
 static double plainness(const struct contest *t, const struct br_candidate *c)
 {
     const struct br_role_column *column = &t->roles->column[c->size.column];
-    return column->by_hand
-               ? 99
-               : br_name_odds(column->name, c->size.states) - (c->size.states->is_volume ? 2 : 0);
+    return column->by_hand ? 99
+                           : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
 }
 
 /* Of the ways in which these sizes are stated the plainest. */
@@ -178,11 +190,7 @@ enum { TEXT = 400 };
 static const char *shown_name(const struct br_roles *r, size_t column, char text[80])
 {
     const struct br_role_column *c = &r->column[column];
-    if (!c->name) {
-        snprintf(text, 80, "%zu", column + 1);
-        return text;
-    }
-    return br_quoted(text, 80, &br_for_text, c->shown ? c->shown : c->name);
+    return br_quoted(text, 80, &br_for_text, c->shown ? c->shown : c->label);
 }
 
 /* "h = N^(-1/2) from N" */
@@ -276,7 +284,7 @@ static enum br_status check_counts(const struct contest *t, struct br_error *err
         const struct br_resolution_column *s = c->size.states;
         char name[80];
         if (s->is_size || s->is_power || !(column->least < 1) || !(column->least > 0) ||
-            !(column->by_hand || br_name_odds(column->name, s) >= 4))
+            !(column->by_hand || br_odds(column, s) >= BR_USUAL_NAME))
             continue;
         return br_fail(err, BR_BAD_INPUT,
                        "%s: %s: found %g, expected a count of at least 1: --column '%s=%s', if it "
@@ -300,7 +308,7 @@ static enum br_status check_direction(const struct contest *t, const struct br_c
         bool count = false;
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             count |=
-                !s->is_size && s->axis == t->axis && !c->by_hand && br_name_odds(c->name, s) >= 4;
+                !s->is_size && s->axis == t->axis && !c->by_hand && br_odds(c, s) >= BR_USUAL_NAME;
         if (!count || i == best->size.column || !c->is_whole || c->words || !(c->least < c->most) ||
             br_evidence_order(r, best, t->sorted, i) < 0.05)
             continue;
@@ -411,7 +419,7 @@ static const double *other_sizes(const struct br_roles *r, enum br_axis axis)
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (s->axis == BR_AXIS_SPACE && r->column[i].least < r->column[i].most &&
                 (r->column[i].by_hand ? r->column[i].stated == s
-                                      : br_name_odds(r->column[i].name, s) >= 4))
+                                      : br_odds(&r->column[i], s) >= BR_USUAL_NAME))
                 return r->column[i].number;
     return NULL;
 }
@@ -454,8 +462,7 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
         const struct br_candidate *best = best_of(&t, NULL);
         const struct br_role_column *c = best ? &r->column[best->size.column] : NULL;
         if (best && i == BR_AXIS_SPACE && r->size[BR_AXIS_TIME].states && !c->by_hand &&
-            (br_name_odds(c->name, best->size.states) < 2 ||
-             (best->contradicts_rates && time_gives_rates)))
+            (br_odds(c, best->size.states) < 2 || (best->contradicts_rates && time_gives_rates)))
             best = NULL;
         if (best && choose(&t, best, err))
             return err->status;

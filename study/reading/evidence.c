@@ -75,6 +75,7 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
                                      const struct br_role_column *e, bool finer)
 {
     const double most = 0.06, least = 0.006; /* of a printed rate */
+    const double coarse = 0.15;              /* of the rate of two errors with few digits */
     const struct br_role_column *z = own(v);
     struct residual found = {0};
     struct pair p;
@@ -86,15 +87,18 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         const double seen = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
         const double of_sizes =
             z->is_whole ? 0 : fabs(seen) * (z->rounding[p.coarse] + z->rounding[p.fine]);
-        const double digits = e->rounding[p.coarse] + e->rounding[p.fine] + of_sizes;
+        const double digits =
+            -log1p(-e->rounding[p.coarse]) - log1p(-e->rounding[p.fine]) + of_sizes;
         if (isnan(rate->number[row]) || !isfinite(seen))
             continue;
         const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
+        const double beyond = off - fmin(most, fmax(least, of_digit(rate, row)));
+        if (beyond > coarse && beyond <= digits / p.ratio) /* too few digits to tell */
+            continue;
+        found.worst = fmax(found.worst, beyond - fmin(coarse, digits / p.ratio));
         found.compared++;
         found.sum += off;
         found.whole = fmax(found.whole, off);
-        found.worst = fmax(found.worst, off - fmin(most, fmax(least, of_digit(rate, row))) -
-                                            fmin(0.15, digits / p.ratio));
     }
     return found;
 }
@@ -187,10 +191,7 @@ static bool grows_in(const struct view *v, double dimension)
 /* Whether the heading is a usual name of any size. */
 static bool has_usual_name(const struct view *v)
 {
-    bool usual = own(v)->by_hand;
-    for (const struct br_resolution_column *s = br_resolution_columns; s->name && !usual; s++)
-        usual = br_name_odds(own(v)->name, s) > 0.5;
-    return usual;
+    return own(v)->by_hand || own(v)->named > BR_ANY_NAME;
 }
 
 static double grows(const struct view *v)
@@ -261,7 +262,7 @@ static bool dips(const struct view *v, size_t column)
     size_t line = BR_NO_ROW;
     struct pair p;
     for (size_t at = 0; next_pair(v, &at, &p);) {
-        first = line == v->roles->line[p.coarse] ? first : fabs(e[p.coarse]);
+        first = line == v->roles->line[p.coarse] && !isnan(first) ? first : fabs(e[p.coarse]);
         line = v->roles->line[p.coarse];
         if (fabs(e[p.fine]) < 0.95 * first)
             return true;
@@ -354,11 +355,12 @@ static double has_a_second(const struct view *v)
             c->kind == BR_KIND_ERROR || c->words || !(c->least < c->most))
             continue;
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++) {
-            const bool named = br_name_odds(c->name, s) > 1.5;
-            if (!named && br_name_odds(own(v)->name, v->candidate->size.states) <= 0.5)
+            const bool named = br_odds(c, s) > 1.5;
+            if (!named && br_odds(own(v), v->candidate->size.states) <= 0.5)
                 continue; /* of two unknown columns one may have errors of order one */
             if (s->axis != BR_AXIS_SPACE || strcmp(s->name, "dofs") == 0 ||
-                !(named || (c->is_whole && !s->is_size && c->least >= 1)))
+                !(named || (br_odds(c, br_resolution_columns) < BR_USUAL_NAME && c->is_whole &&
+                            !s->is_size && c->least >= 1)))
                 continue;
             for (int d = 1; d <= (s->is_volume ? 3 : 1); d++)
                 if (agrees(v, i, s, d))
@@ -375,36 +377,16 @@ static double is_beside_a_size(const struct view *v)
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
-                c->least < c->most && c->numbers == v->roles->rows && br_name_odds(c->name, s) >= 4)
+                c->least < c->most && c->numbers == v->roles->rows &&
+                br_odds(c, s) >= BR_USUAL_NAME)
                 return 1;
-    }
-    return 0;
-}
-
-/* Unknowns, beside cells that grow by one factor. */
-static double is_beside_cells(const struct view *v)
-{
-    const struct br_resolution_column *cells = br_resolution_column_find("cells");
-    for (size_t i = 0; i < v->roles->columns && has_name(v, "dofs"); i++) {
-        const struct br_role_column *c = &v->roles->column[i];
-        struct pair p;
-        double first = NAN;
-        bool steady = i != v->candidate->size.column && c->is_whole && !c->words &&
-                      c->numbers == v->roles->rows && br_name_odds(c->name, cells) >= 4;
-        for (size_t at = 0; steady && next_pair(v, &at, &p);) {
-            const double ratio = c->number[p.fine] / c->number[p.coarse];
-            first = isnan(first) ? ratio : first;
-            steady = ratio > 1 && fabs(ratio / first - 1) < 0.02;
-        }
-        if (steady && first > 1)
-            return 1;
     }
     return 0;
 }
 
 static double name(const struct view *v)
 {
-    return br_name_odds(own(v)->name, v->candidate->size.states);
+    return br_odds(own(v), v->candidate->size.states);
 }
 
 static double by_hand(const struct view *v)
@@ -435,7 +417,6 @@ static const struct {
     {halves, 0.75, "its sizes halve"},
     {counts_up, -4, "levels count by one"},
     {has_a_second, 3, "another column states the same sizes"},
-    {is_beside_cells, -3, "cells beside the unknowns state the mesh"},
     {is_beside_a_size, -4, "another column is called h, n or level"},
     {some_fall, 0.5, "something falls with its sizes"},
     {grow_all, -3, "all that may be errors grows where its sizes fall"},
@@ -482,14 +463,9 @@ static bool falls(const struct error_view *e)
     return dips(&e->v, e->column);
 }
 
-static bool grows_finer(const struct error_view *e)
-{
-    return climbs(&e->v, e->column);
-}
-
 static bool is_count(const struct error_view *e)
 {
-    return grows_finer(e) && tried(e)->is_whole && tried(e)->most > 1;
+    return climbs(&e->v, e->column) && tried(e)->is_whole && tried(e)->most > 1;
 }
 
 static bool stays(const struct error_view *e)
@@ -507,19 +483,6 @@ static bool has_words(const struct error_view *e)
     return tried(e)->numbers <= tried(e)->words;
 }
 
-static bool gives_rates(const struct error_view *e)
-{
-    for (size_t i = 0; i < e->v.roles->columns; i++) {
-        const struct br_role_column *c = &e->v.roles->column[i];
-        if (c->kind == BR_KIND_RATE && may_have_errors(&e->v, e->column)) {
-            const struct residual found = compare_column(&e->v, c, e->column);
-            if (found.compared > 1 && found.worst <= 0)
-                return true;
-        }
-    }
-    return false;
-}
-
 static const struct {
     bool (*holds)(const struct error_view *e);
     double log_odds;
@@ -528,8 +491,6 @@ static const struct {
     {is_error_by_name, 3.5, "its heading"},
     {is_of_another_kind, -5, "its heading is of a rate, a cost, a deviation or a degree"},
     {falls, 1.5, "it falls with the sizes"},
-    {gives_rates, 6, "its rates are in the table"},
-    {grows_finer, -2, "it grows"},
     {is_count, -4, "it counts"},
     {stays, -2.5, "it hardly changes"},
     {has_a_sign, -9, "it has both signs"},

@@ -17,11 +17,11 @@ static const struct {
 } of_sizes[] = {
     {"h", 5,
      " h dx dy \xce\x94x deltax meshsize meshwidth elementsize elsize cellsize gridspacing meshspacing "
-     "spacing hmax maxh hmin minh hmean havg hx hy meshh gridwidth cellwidth resolutionkm resolutionm "
+     "spacing hmax maxh hmin minh hmean havg hx hy meshh gridwidth cellwidth "
      "steph stepwidth elementlength lc gitterweite maschenweite "},
     {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh "},
     {"n", 5,
-     " nx ny cellsperside elementsperside 1h 1dx inverseh invh hinv invdx 1overh gridresolution nxny "
+     " nx ny cellsperside elementsperside inverseh invh hinv invdx 1overh gridresolution nxny "
      "numel1d cellsperdim samples nsamples paths npaths "},
     {"n", 4,
      " n nel nelements resolution intervals subdivisions nsub ndivisions divisions numintervals "
@@ -59,10 +59,12 @@ static const struct {
     {BR_KIND_RATE,
      " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
      "poc ordre ordnung ordem orden "},
-    {BR_KIND_FACTOR, " ratio ratios reduction factor factors quotient "},
+    {BR_KIND_FACTOR,
+     " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
-     "solver cycle index row memory mem ram newton gmres cg nit niter flops cost elapsed ms step id idx "
+     "setup rhs solve solver assemble assembly mb gb mib gib nnz nonzeros threads ranks procs cores "
+     "cycle index row memory mem ram newton gmres cg nit niter flops cost elapsed ms step id idx "
      "date timestamp run_id speedup zeit "},
     {BR_KIND_DEGREE, " degree deg poly polynomial polydeg pdeg "},
     {BR_KIND_REPEAT, " seed repeat replicate trial run sample rep repetition "},
@@ -139,35 +141,150 @@ static bool without_letter(char text[LONGEST], const char *name, const char *col
 static bool is_of_a_side(const char *name)
 {
     char word[LONGEST];
-    while (next_word(&name, word))
-        if (lists(" per along direction side dim edge ", word))
-            return true;
-    return false;
+    size_t words = 0;
+    bool side = false;
+    for (; next_word(&name, word); words++)
+        side |= lists(" per along direction side dim edge ", word);
+    return side && words > 1;
 }
 
-double br_name_odds(const char *name, const struct br_resolution_column *column)
+/* The odds that a list gives a plain name; *most: of any column. */
+static double listed_odds(const char *plain_name, const char *column, double *most)
+{
+    double best = -9;
+    for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++) {
+        if (!lists(of_sizes[i].names, plain_name))
+            continue;
+        *most = fmax(*most, of_sizes[i].odds);
+        if (strcmp(of_sizes[i].column, column) == 0)
+            best = fmax(best, of_sizes[i].odds);
+    }
+    return best;
+}
+
+static bool takes(const char **at, const char *text)
+{
+    const bool found = strncmp(*at, text, strlen(text)) == 0;
+    *at += found ? strlen(text) : 0;
+    return found;
+}
+
+/* The column that a formula of another gives: "1/N", "sqrt(1/N)" and "dofs^(-1/2)" are an h; "1/h"
+ * and "sqrt(cells)" an n. NULL: the name is no such formula. */
+static const char *formula_of(const char *name)
+{
+    char text[LONGEST], base[LONGEST];
+    const char *at = strchr(name, '=') ? strchr(name, '=') + 1 : name;
+    size_t length = 0;
+    for (; *at && length + 1 < LONGEST; at++)
+        if (*at == '*')
+            text[length] = '^', length += !length || text[length - 1] != '^';
+        else if (!strchr(" \\{}$()", *at))
+            text[length++] = (char)tolower((unsigned char)*at);
+    text[length] = '\0';
+    at = text;
+    bool inverse = takes(&at, "frac1"), root = takes(&at, "sqrt") || takes(&at, "cbrt");
+    inverse |= takes(&at, "1/");
+    root |= takes(&at, "sqrt") || takes(&at, "cbrt");
+    snprintf(base, sizeof base, "%.*s", (int)strcspn(at, "^/"), at);
+    at += strlen(base);
+    if (takes(&at, "^")) {
+        inverse |= takes(&at, "-");
+        if (takes(&at, "1/2") || takes(&at, "1/3") || takes(&at, "1/d") || takes(&at, "0.5"))
+            root = true;
+        else if (!takes(&at, "1") || !inverse)
+            return NULL;
+    }
+    if (*at || !(inverse || root))
+        return NULL;
+    plain(base, text);
+    double most = 0;
+    for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++) {
+        const bool time = c->axis == BR_AXIS_TIME;
+        if (listed_odds(text, c->name, &most) < (c->is_size ? 4 : 1.5) || c->is_power)
+            continue;
+        if (c->is_size)
+            return !inverse || root ? NULL : time ? "steps" : "n";
+        return inverse ? time ? "dt" : "h" : c->is_volume && !lists(" n m ", text) ? "n" : NULL;
+    }
+    return NULL;
+}
+
+/* "grid_spacing_m": without the unit of length or time at its end. False: it has none. */
+static bool without_unit(const char *name, char text[LONGEST])
+{
+    char word[LONGEST];
+    const char *end = strrchr(name, '_');
+    end = end ? end : strrchr(name, ' ');
+    if (!end || end == name)
+        return false;
+    plain(end, word);
+    snprintf(text, LONGEST, "%.*s", (int)(end - name), name);
+    return lists(" m mm cm km um nm s ms us ns ", word);
+}
+
+/* "normalized spacing", "average cell width". */
+static bool has_spacing(const char *name)
+{
+    char word[LONGEST];
+    bool mesh = false, width = false;
+    while (next_word(&name, word)) {
+        if (lists(" spacing ", word))
+            return true;
+        mesh |= lists(" mesh grid cell element zone ", word);
+        width |= lists(" width size length ", word);
+    }
+    return mesh && width;
+}
+
+/* A length that is called a resolution or a grid is a size. */
+static bool is_length(const char *name, const char *unit)
+{
+    double most = 0;
+    char text[LONGEST];
+    plain(name, text);
+    return unit && lists(" m mm cm km um nm deg \xc2\xb5m ", unit) &&
+           (listed_odds(text, "h", &most) > 0 || lists(" resolution step ", text));
+}
+
+double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column)
 {
     const double unknown = column->axis == BR_AXIS_TIME ? -9 : 0.5, definite = 5, excluded = -2;
-    char whole[LONGEST], bare[LONGEST];
+    char whole[LONGEST], bare[LONGEST], stripped[LONGEST];
     double best = -9, most = 0;
     if (!name)
         return unknown;
+    const char *is = formula_of(name);
+    if (!is && without_unit(name, stripped)) {
+        unit = name + strlen(stripped) + 1;
+        name = stripped;
+    }
+    is = is ? is : is_of_a_side(name) ? "n" : is_length(name, unit) ? "h" : NULL;
     plain(name, whole);
     without_fill(name, bare);
-    if (is_of_a_side(name))
-        return strcmp(column->name, "n") == 0 ? definite : fmin(excluded, unknown);
-    for (int pass = 0; pass < 3 && most == 0; pass++) {
-        if (pass == 2 && !without_letter(bare, name, "h"))
-            break;
-        for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++) {
-            if (!lists(of_sizes[i].names, pass ? bare : whole))
-                continue;
-            most = fmax(most, of_sizes[i].odds);
-            if (strcmp(of_sizes[i].column, column->name) == 0)
-                best = fmax(best, of_sizes[i].odds);
-        }
+    if (!is) {
+        best = listed_odds(whole, column->name, &most);
+        best = most > 0 ? best : listed_odds(bare, column->name, &most);
+        if (!(most > 0) && without_letter(bare, name, "h"))
+            best = listed_odds(bare, column->name, &most);
+        if (!(most > 0) && has_spacing(name))
+            is = "h";
     }
+    if (is)
+        return strcmp(column->name, is) == 0 ? definite : fmin(excluded, unknown);
     return best > 0 ? best : most >= definite ? fmin(excluded, unknown) : unknown;
+}
+
+/* A field that says that there is no number, beside those that number.c knows. */
+bool br_is_gap(const char *text)
+{
+    char small[LONGEST];
+    plain(text, small);
+    return strcmp(text, ".") == 0 || strspn(text, "?") == strlen(text) ||
+           lists(
+               " \xce\xb5 eps epsilon diverged diverges div notconverged noconvergence nc fail failed "
+               "failure dnf oom timeout tbd ",
+               small);
 }
 
 enum br_kind br_kind_of(const char *name)
@@ -187,11 +304,14 @@ enum br_kind br_kind_of(const char *name)
         return BR_KIND_UNKNOWN;
     if (words == 1 && strcmp(last, "red") == 0)
         return BR_KIND_FACTOR;
+    enum br_kind found = BR_KIND_UNKNOWN; /* "error_mb", "time_error": an error */
     for (size_t i = 0; i < sizeof of_kinds / sizeof *of_kinds; i++)
         for (at = name; next_word(&at, word);)
-            if (lists(of_kinds[i].words, word))
-                return of_kinds[i].kind;
-    return strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
-           : strchr(name, '|') || strstr(name, "\\|")     ? BR_KIND_ERROR
-                                                          : BR_KIND_UNKNOWN;
+            if (lists(of_kinds[i].words, word) &&
+                (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
+                found = of_kinds[i].kind;
+    return found                                            ? found
+           : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
+           : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR
+                                                            : BR_KIND_UNKNOWN;
 }

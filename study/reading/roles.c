@@ -21,6 +21,13 @@ static char *copy_text(struct br_roles *r, const char *text)
     return copy ? strcpy(copy, text) : NULL;
 }
 
+char *br_row_place(const struct br_fields *f, size_t row, char text[32])
+{
+    snprintf(text, 32, f->line[row] ? "line %zu" : "row %zu",
+             f->line[row] ? f->line[row] : row + 1);
+    return text;
+}
+
 enum br_status br_roles_refuse(const struct br_roles *r, const char *why, const char *word,
                                struct br_error *err)
 {
@@ -63,7 +70,8 @@ static char *split_unit(char *heading)
     const size_t length = strlen(heading);
     const char last = length ? heading[length - 1] : '\0';
     char *open = last == ']' ? strrchr(heading, '[') : last == ')' ? strrchr(heading, '(') : NULL;
-    if (!open || open == heading)
+    if (!open || open == heading || strchr("^*/", open[-1]) ||
+        (open - heading >= 3 && memcmp(open - 3, "qrt", 3) == 0)) /* a formula */
         return NULL;
     heading[length - 1] = '\0';
     char *end = open;
@@ -73,13 +81,13 @@ static char *split_unit(char *heading)
     return open[1] ? open + 1 : NULL;
 }
 
-/* Whether the name without its unit states a resolution, by a usual name. */
-static bool is_size_by_name(const char *name)
+static void weigh_name(struct br_role_column *c)
 {
-    for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
-        if (br_name_odds(name, s) >= 4)
-            return true;
-    return false;
+    c->named = 0;
+    for (int i = 0; i < BR_RESOLUTIONS; i++) {
+        c->odds[i] = br_name_odds(c->name, c->unit, &br_resolution_columns[i]);
+        c->named = c->by_hand ? 0 : fmax(c->named, c->odds[i]);
+    }
 }
 
 static enum br_status name_column(struct br_roles *r, size_t i, struct br_error *err)
@@ -96,7 +104,8 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
         return br_no_memory(err, "the table");
     c->name = name;
     c->unit = split_unit(name);
-    for (size_t j = 0; j < r->columns && c->unit && !is_size_by_name(name); j++)
+    weigh_name(c);
+    for (size_t j = 0; j < r->columns && c->unit && c->named < BR_USUAL_NAME; j++)
         if (j != i && r->fields->heading[j] &&
             strncmp(r->fields->heading[j], text, (size_t)(c->unit - name)) == 0) {
             strcpy(name, text); /* "L2(u)", "L2(p)": no units */
@@ -180,6 +189,7 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
 {
     const char *item;
     size_t length;
+    bool gci = false;
     for (size_t i = 0; i < r->columns; i++)
         if (name_column(r, i, err))
             return err->status;
@@ -190,12 +200,20 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
     }
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
+        snprintf(c->position, sizeof c->position, "%zu", i + 1);
+        c->label = c->name ? c->name : c->position;
+        weigh_name(c);
         if (c->name &&
             (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
-            !c->stated && !is_size_by_name(c->name))
+            !c->stated && c->named < BR_USUAL_NAME)
             c->role = BR_ROLE_ERROR;
         c->is_value = c->name && br_lists(r->wishes->values, c->name);
+        gci |= c->name && strcasestr(c->name, "gci");
     }
+    for (size_t i = 0; i < r->columns && gci; i++) /* r is the ratio of two sizes, p one order */
+        if (r->column[i].name && !r->column[i].name[1] && strchr("rp", *r->column[i].name) &&
+            !r->column[i].by_hand)
+            r->column[i].kind = BR_KIND_FACTOR;
     return BR_OK;
 }
 
@@ -246,7 +264,7 @@ static void find_rounding(struct br_roles *r, size_t column)
 static void read_numbers(struct br_roles *r, size_t column)
 {
     struct br_role_column *c = &r->column[column];
-    c->numbers = c->words = 0;
+    c->numbers = c->words = c->gaps = 0;
     c->is_whole = true;
     c->least = INFINITY;
     c->most = -INFINITY;
@@ -256,6 +274,11 @@ static void read_numbers(struct br_roles *r, size_t column)
         c->number[i] = c->deviation[i] = NAN;
         if (r->dropped[i] || br_field_is_missing(text))
             continue;
+        if (br_is_gap(text)) {
+            c->gaps++;
+            c->gap = text;
+            continue;
+        }
         if (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)) {
             c->words++;
             continue;
@@ -297,9 +320,16 @@ static void find_rates_without_a_name(struct br_roles *r)
     }
 }
 
-/* MOOSE writes a row of zeros before the first solution. */
+/* Rows without a field are none. MOOSE writes a row of zeros before the first solution. */
 static void drop_zeros(struct br_roles *r)
 {
+    for (size_t i = 0; i < r->rows; i++) {
+        bool empty = true;
+        for (size_t k = 0; k < r->columns && empty; k++)
+            empty = !field_at(r, i, k);
+        if (empty)
+            r->dropped[i] = "an empty row";
+    }
     bool zeros = r->columns > 2 && r->rows > 0;
     for (size_t i = 0; i < r->columns; i++)
         zeros = zeros && r->column[i].number[0] == 0;
@@ -316,12 +346,12 @@ enum br_status br_roles_check_words(const struct br_roles *r, size_t column, str
     struct br_field_number n;
     for (size_t i = 0; i < r->rows && c->words; i++) {
         const char *text = field_at(r, i, column);
-        if (!r->dropped[i] && !br_field_is_missing(text) &&
+        if (!r->dropped[i] && !br_field_is_missing(text) && !br_is_gap(text) &&
             (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)))
             return br_fail(
                 err, BR_BAD_INPUT,
                 "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",
-                r->wishes->path, r->fields->line[i], c->name ? c->name : "a number", text);
+                r->wishes->path, r->fields->line[i], c->label, text);
     }
     return BR_OK;
 }
@@ -331,7 +361,7 @@ static enum br_status check_sizes(const struct br_roles *r, struct br_error *err
 {
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
-        const bool size = c->stated || (c->name && !c->by_hand && is_size_by_name(c->name));
+        const bool size = c->stated || c->named >= BR_USUAL_NAME;
         if (size && (c->stated || c->numbers > c->words) && br_roles_check_words(r, i, err))
             return err->status;
     }
@@ -355,6 +385,7 @@ static enum br_status take_where(struct br_roles *r, struct br_error *err)
 {
     const char *where = r->wishes->where, *equals = where ? strchr(where, '=') : NULL;
     size_t kept = 0, column = BR_NO_ROW;
+    char place[32];
     if (!where)
         return BR_OK;
     while (equals && (column = find_column(r, where, (size_t)(equals - where))) == BR_NO_ROW)
@@ -369,9 +400,9 @@ static enum br_status take_where(struct br_roles *r, struct br_error *err)
         else if (!r->dropped[i])
             r->dropped[i] = "--where chooses others";
     if (!kept)
-        return br_fail(err, BR_BAD_INPUT, "%s: --where: no row has %s = '%s', as line %zu has '%s'",
-                       r->wishes->path, r->column[column].name ? r->column[column].name : "it",
-                       equals + 1, r->rows ? r->fields->line[0] : 0,
+        return br_fail(err, BR_BAD_INPUT, "%s: --where: no row has %s = '%s', as %s has '%s'",
+                       r->wishes->path, r->column[column].label, equals + 1,
+                       r->rows ? br_row_place(r->fields, 0, place) : "none",
                        r->rows && field_at(r, 0, column) ? field_at(r, 0, column) : "");
     for (size_t i = 0; i < r->columns; i++)
         read_numbers(r, i);
@@ -418,7 +449,7 @@ static bool a_size_repeats(const struct br_roles *r, size_t but)
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
         if (i == but || c->words || !(c->least < c->most) ||
-            !(c->stated || (c->name && !c->by_hand && is_size_by_name(c->name))))
+            !(c->stated || c->named >= BR_USUAL_NAME))
             continue;
         for (size_t a = 0; a < r->rows; a++)
             for (size_t b = 0; b < a; b++)
@@ -455,17 +486,55 @@ static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
                            : (word || other) && is_consecutive(r, c) && c->most <= 20;
 }
 
-static bool tells_cases(const struct br_roles *r, size_t i)
+/* Whether a column follows from another: rows of one field there have one field here. */
+static bool follows(const struct br_roles *r, size_t column, size_t other)
+{
+    bool again = false;
+    for (size_t a = 0; a < r->rows; a++)
+        for (size_t b = 0; b < a; b++) {
+            if (r->dropped[a] || r->dropped[b] ||
+                strcmp(text_of(r, a, other), text_of(r, b, other)) != 0)
+                continue;
+            again = true;
+            if (strcmp(text_of(r, a, column), text_of(r, b, column)) != 0)
+                return false;
+        }
+    return again;
+}
+
+/* Whether a column tells cases apart: by words or degrees, or by other numbers. */
+static bool tells_cases(const struct br_roles *r, size_t i, bool by_numbers)
 {
     const struct br_role_column *c = &r->column[i];
+    const bool degree = is_degree(r, c);
     if (c->stated || c->why || c->role == BR_ROLE_ERROR || !count_cases(r, i))
         return false;
-    if (c->words)
-        return c->numbers == 0;
-    if (is_degree(r, c))
-        return true;
-    return c->kind == BR_KIND_UNKNOWN && !(c->name && is_size_by_name(c->name)) &&
-           a_size_repeats(r, i);
+    if (!by_numbers)
+        return c->words ? c->numbers == 0 : degree;
+    if (c->words || degree || c->kind != BR_KIND_UNKNOWN || c->named >= BR_USUAL_NAME ||
+        !a_size_repeats(r, i))
+        return false;
+    for (size_t k = 0; k < r->columns; k++)
+        if (k != i &&
+            (r->column[k].role == BR_ROLE_CASE || r->column[k].stated ||
+             r->column[k].named >= BR_USUAL_NAME) &&
+            follows(r, i, k))
+            return false;
+    return true;
+}
+
+/* Several columns of numbers tell studies apart: one is to be chosen. */
+static enum br_status ask_where(const struct br_roles *r, size_t i, struct br_error *err)
+{
+    char item[240], quoted[300];
+    size_t row = 0;
+    while (r->dropped[row])
+        row++;
+    snprintf(item, sizeof item, "%.100s=%.100s", r->column[i].label, text_of(r, row, i));
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: sizes repeat, and %s tells several studies apart: --where %s chooses one",
+                   r->wishes->path, r->column[i].label,
+                   br_quoted(quoted, sizeof quoted, &br_for_shell, item));
 }
 
 /* "method = P1, degree = 2" */
@@ -483,8 +552,17 @@ static const char *name_group(struct br_roles *r, size_t row)
 static enum br_status find_cases(struct br_roles *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->columns; i++)
-        if (tells_cases(r, i))
+        if (tells_cases(r, i, false))
             r->column[i].role = BR_ROLE_CASE;
+    size_t by_numbers = BR_NO_ROW;
+    for (size_t i = 0; i < r->columns; i++)
+        if (tells_cases(r, i, true)) {
+            if (by_numbers != BR_NO_ROW)
+                return ask_where(r, by_numbers, err);
+            by_numbers = i;
+        }
+    if (by_numbers != BR_NO_ROW)
+        r->column[by_numbers].role = BR_ROLE_CASE;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role != BR_ROLE_CASE && is_degree(r, &r->column[i]))
             r->column[i].role = BR_ROLE_DEGREE;
@@ -592,7 +670,7 @@ static const char *why_aside(const struct br_roles *r, size_t i)
         return "words among numbers";
     if (!(c->least < c->most))
         return "one number only";
-    if (c->name && is_size_by_name(c->name))
+    if (c->named >= BR_USUAL_NAME)
         return "another size";
     return r->wishes->errors || r->wishes->values ? "not asked for"
            : c->least < 0                         ? "both signs: --value, if it is studied"
@@ -601,13 +679,18 @@ static const char *why_aside(const struct br_roles *r, size_t i)
                            "it is studied";
 }
 
+static bool is_studied(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ERROR || c->role == BR_ROLE_VALUE;
+}
+
 /* The column whose deviations these are: it has the same words, or is the only one. */
 static size_t find_of(const struct br_roles *r, size_t deviations)
 {
     size_t found = BR_NO_ROW, count = 0;
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
-        if (c->role != BR_ROLE_ERROR && c->role != BR_ROLE_VALUE)
+        if (!is_studied(c))
             continue;
         if (c->name && r->column[deviations].name && strstr(r->column[deviations].name, c->name))
             return i;
@@ -626,7 +709,7 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
         if (c->role == BR_ROLE_SIZE || c->role == BR_ROLE_CASE || c->stated || c->why)
             continue;
         const bool by_hand = c->by_hand && c->kind == BR_KIND_UNKNOWN;
-        const bool named_size = c->name && !c->by_hand && is_size_by_name(c->name);
+        const bool named_size = c->named >= BR_USUAL_NAME;
         const bool studied =
             asked ? is_asked(r, c) && !named_size
                   : by_hand || (!named_size && c->numbers && c->role != BR_ROLE_DEGREE &&
@@ -644,6 +727,25 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE)
             r->column[i].why = why_aside(r, i);
+}
+
+/* Names errors of one heading apart: "l2", "l2 (2)". */
+static enum br_status number_names(struct br_roles *r, struct br_error *err)
+{
+    char text[220];
+    for (size_t i = r->columns; i-- > 0;) {
+        struct br_role_column *c = &r->column[i];
+        size_t count = 1;
+        for (size_t k = 0; k < i && c->name; k++)
+            count += is_studied(&r->column[k]) && r->column[k].name &&
+                     strcmp(r->column[k].name, c->name) == 0;
+        if (count == 1 || !is_studied(c))
+            continue;
+        snprintf(text, sizeof text, "%.190s (%zu)", c->name, count);
+        if (!(c->label = c->name = copy_text(r, text)))
+            return br_no_memory(err, "the table");
+    }
+    return BR_OK;
 }
 
 /* An error that halves exactly beside sizes that do not is a size, more likely. */
@@ -673,12 +775,44 @@ static enum br_status check_swap(const struct br_roles *r, const struct br_candi
     free(log_z);
     if (!swapped)
         return BR_OK;
-    const char *error = r->column[i - 1].name ? r->column[i - 1].name : "an error";
     return br_fail(err, BR_BAD_INPUT,
                    "%s: %s halves exactly, and the sizes in %s do not: are the two swapped? "
                    "--column '%s=%s' says that they are not",
-                   r->wishes->path, error, size->name ? size->name : "their column",
-                   size->name ? size->name : "1", over->size.states->name);
+                   r->wishes->path, r->column[i - 1].label, size->label, size->label,
+                   over->size.states->name);
+}
+
+/* Beside the iterations of a solver, an error that does not fall from mesh to mesh is one of the
+ * solver. */
+static enum br_status check_residuals(const struct br_roles *r, const size_t *sorted,
+                                      struct br_error *err)
+{
+    const struct br_resolution_column *steps = br_resolution_column_find("steps");
+    if (sorted[0] == BR_NO_ROW)
+        return BR_OK;
+    const char *iterations = NULL, *error = NULL;
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        bool rises = false;
+        if (c->role == BR_ROLE_ASIDE && c->name && c->numbers && !c->by_hand &&
+            (strcasestr(c->name, "iter") || br_odds(c, steps) >= BR_USUAL_NAME))
+            iterations = c->name;
+        if (!is_studied(c))
+            continue;
+        size_t last = 0;
+        for (; sorted[last + 1] != BR_NO_ROW; last++)
+            rises |= c->number[sorted[last + 1]] >= c->number[sorted[last]];
+        if (c->by_hand || c->is_value || r->wishes->errors || !rises ||
+            4 * c->number[sorted[last]] < c->number[sorted[0]])
+            return BR_OK;
+        error = c->label;
+    }
+    return iterations && error && r->groups == 1
+               ? br_fail(err, BR_BAD_INPUT,
+                         "%s: %s does not fall from mesh to mesh, beside iterations (%s): is it a "
+                         "residual of the solver? --error '%s' says that it is an error",
+                         r->wishes->path, error, iterations, error)
+               : BR_OK;
 }
 
 /* ---- rows of one size ---- */
@@ -720,12 +854,15 @@ static double scatter_of(const struct run *run, size_t first, size_t end)
 static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_t before,
                                      struct br_error *err)
 {
-    return br_fail(
-        err, BR_BAD_INPUT,
-        "%s:%zu: the resolution is that of line %zu, expected each once: --where chooses "
-        "one of several studies, by a column that tells them apart; of repeated runs, "
-        "give the mean, or each size at least twice",
-        r->wishes->path, r->fields->line[row], r->fields->line[before]);
+    char place[32], other[32];
+    const bool lines = r->fields->line[row];
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s%s%s: the resolution is that of %s, expected each once: --where chooses "
+                   "one of several studies, by a column that tells them apart; of repeated runs, "
+                   "give the mean, or each size at least twice",
+                   r->wishes->path, lines ? ":" : ": ",
+                   br_row_place(r->fields, row, place) + (lines ? strlen("line ") : 0),
+                   br_row_place(r->fields, before, other));
 }
 
 /* Runs of one size: of repeated runs the mean counts, of adaptive meshes the last. */
@@ -776,7 +913,7 @@ static enum br_status take_repeats(struct br_roles *r, struct br_error *err)
     if (!run)
         return br_no_memory(err, "the table");
     for (size_t i = 0; i < r->columns && error == BR_NO_ROW; i++)
-        if (r->column[i].role == BR_ROLE_ERROR || r->column[i].role == BR_ROLE_VALUE)
+        if (is_studied(&r->column[i]))
             error = i;
     for (size_t i = 0; i < r->rows && error != BR_NO_ROW; i++) {
         if (r->dropped[i])
@@ -801,8 +938,7 @@ static bool counts_volume(const struct br_roles *r)
     bool counts = !chosen || chosen->is_volume;
     for (size_t i = 0; i < r->columns && !counts; i++)
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
-            counts |= s->is_volume &&
-                      (r->column[i].stated == s || br_name_odds(r->column[i].name, s) > 1);
+            counts |= s->is_volume && (r->column[i].stated == s || br_odds(&r->column[i], s) > 1);
     return counts;
 }
 
@@ -828,7 +964,10 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     if (!r->halves)
         br_evidence_weigh(r, &over, sorted);
     take_errors(r, &over, sorted);
-    return check_swap(r, &over, sorted, err) || take_repeats(r, err) ? err->status : BR_OK;
+    return number_names(r, err) || check_swap(r, &over, sorted, err) ||
+                   check_residuals(r, sorted, err) || take_repeats(r, err)
+               ? err->status
+               : BR_OK;
 }
 
 enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,

@@ -33,17 +33,25 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
-/* Log odds that a column of this name states a resolution in this way. */
-double br_name_odds(const char *name, const struct br_resolution_column *column);
+/* Log odds that a column of this name and unit (NULL: none) states a resolution in this way. */
+double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column);
+
+/* Whether a field says that there is no number: "diverged". */
+bool br_is_gap(const char *text);
 
 struct br_role_column {
     const char *shown;       /* the heading in the source; NULL: there is none */
     const char *name, *unit; /* without its unit, or as --column names it; NULL: none */
+    const char *label;       /* its name, or its position from 1 on */
+    char position[24];
     enum br_kind kind;
-    double *number, *deviation; /* rows; NaN: none */
-    double *rounding;           /* half a unit of the last digit, relative */
-    size_t numbers, words;      /* how many fields are one or the other */
-    bool is_whole, is_value;    /* is_value: --value says that its limit is not known */
+    double odds[BR_RESOLUTIONS]; /* of its name, for each way to state a resolution */
+    double named;                /* the greatest of them */
+    double *number, *deviation;  /* rows; NaN: none */
+    double *rounding;            /* half a unit of the last digit, relative */
+    size_t numbers, words, gaps; /* how many fields are one or the other; gaps: "diverged" */
+    const char *gap;             /* the last */
+    bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
     double least, most;
 
     bool by_hand;                              /* --column says what it is */
@@ -68,6 +76,15 @@ struct br_table_wishes {
     const char *errors, *values;
     double dimension; /* 0: nobody stated it */
 };
+
+/* From here on a name is a usual one: of one meaning, or of any. */
+#define BR_USUAL_NAME 4
+#define BR_ANY_NAME 0.5 /* more than that */
+
+static inline double br_odds(const struct br_role_column *c, const struct br_resolution_column *s)
+{
+    return c->odds[s - br_resolution_columns];
+}
 
 #define BR_NO_ROW SIZE_MAX /* no row, or no column */
 
@@ -100,6 +117,9 @@ void br_roles_clear(struct br_roles *roles); /* accepts zeros */
  */
 enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
                                struct br_error *err);
+
+/* "line 3"; "row 2" of a source without lines. Returns text. */
+char *br_row_place(const struct br_fields *fields, size_t row, char text[32]);
 
 /* Refuses a field of words in a column of numbers. */
 enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,

@@ -462,7 +462,7 @@ static void print_cell(struct tally *t)
 }
 
 /* Counts an interval of one method: of an order, whose width is itself, or of a limit. */
-static void count_interval(struct tally *t, struct br_interval found,
+static void count_interval(struct tally *t, struct br_other_interval found,
                            const struct br_error_line *line)
 {
     const struct br_estimate order = {NAN, found.low, found.high};
@@ -479,11 +479,11 @@ static void count_interval(struct tally *t, struct br_interval found,
 enum { METHODS = BR_OTHERS + 1 }; /* ours is the first */
 
 /* What a method states of a line. */
-static struct br_interval state(size_t method, const struct br_error_line *line)
+static struct br_other_interval state(size_t method, const struct br_error_line *line)
 {
     const enum br_other other = (enum br_other)(method - 1);
     const struct br_estimate ours = method == 0 ? stated(line) : (struct br_estimate){0};
-    return method == 0    ? (struct br_interval){ours.low, ours.high}
+    return method == 0    ? (struct br_other_interval){ours.low, ours.high}
            : line->values ? br_other_limit(other, line)
                           : br_other_order(other, line);
 }

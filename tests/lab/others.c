@@ -15,7 +15,7 @@ enum {
 const char *const br_other_names[BR_OTHERS] = {"finest rows", "least squares", "bootstrap",
                                                "robust fits"};
 
-static const struct br_interval none = {NAN, NAN};
+static const struct br_other_interval none = {NAN, NAN};
 
 /* y = limit + slope x^p; of errors, in logarithms: y = limit + slope log x. */
 struct fit {
@@ -120,12 +120,12 @@ static int by_size(const void *a, const void *b)
 }
 
 /* From 2.5 to 97.5 % of n numbers. */
-static struct br_interval middle(double *number, size_t n)
+static struct br_other_interval middle(double *number, size_t n)
 {
     qsort(number, n, sizeof *number, by_size);
     return n < 10 ? none
-                  : (struct br_interval){number[(size_t)(0.025 * (double)(n - 1))],
-                                         number[(size_t)ceil(0.975 * (double)(n - 1))]};
+                  : (struct br_other_interval){number[(size_t)(0.025 * (double)(n - 1))],
+                                               number[(size_t)ceil(0.975 * (double)(n - 1))]};
 }
 
 /* The order or the limit of fits to the fitted line with its own residuals drawn again. */
@@ -149,14 +149,14 @@ static size_t bootstrap(struct fit f, bool sums, size_t times, double *found)
     return times;
 }
 
-static struct br_interval bootstrapped(const struct br_error_line *line)
+static struct br_other_interval bootstrapped(const struct br_error_line *line)
 {
     double found[BOOTSTRAPS];
     const struct fit f = fit_of(line, 0, 0);
     return middle(found, bootstrap(f, false, BOOTSTRAPS, found));
 }
 
-static struct br_interval robust(const struct br_error_line *line)
+static struct br_other_interval robust(const struct br_error_line *line)
 {
     static const double power[WEIGHTS] = {0, -1, -2};
     double found[MOST_FITS];
@@ -176,11 +176,11 @@ static double rate(const struct br_error_line *line, size_t i)
     return log(line->e[i - 1] / line->e[i]) / log(line->h[i - 1] / line->h[i]);
 }
 
-static struct br_interval last_rates(const struct br_error_line *line)
+static struct br_other_interval last_rates(const struct br_error_line *line)
 {
     const size_t last = line->rows - 1;
     const double p = rate(line, last), change = fabs(p - rate(line, last - 1));
-    return (struct br_interval){p - change, p + change};
+    return (struct br_other_interval){p - change, p + change};
 }
 
 /* The order of three values whose changes fall, by bisection; NaN: they do not. */
@@ -198,16 +198,16 @@ static double order_of(const double h[3], const double v[3])
     return low > 1e-5 && low < 39 ? low : NAN;
 }
 
-static struct br_interval grid_index(const struct br_error_line *line)
+static struct br_other_interval grid_index(const struct br_error_line *line)
 {
     const double *h = line->h + line->rows - 3, *v = line->e + line->rows - 3;
     const double p = order_of(h, v), error = fabs(v[1] - v[2]) / (pow(h[1] / h[2], p) - 1);
-    return (struct br_interval){v[2] - 1.25 * error, v[2] + 1.25 * error};
+    return (struct br_other_interval){v[2] - 1.25 * error, v[2] + 1.25 * error};
 }
 
 /* ---- least squares ---- */
 
-static struct br_interval regression(const struct br_error_line *line)
+static struct br_other_interval regression(const struct br_error_line *line)
 {
     struct fit f = fit_of(line, 0, 0);
     double mean = 0, spread = 0;
@@ -218,7 +218,7 @@ static struct br_interval regression(const struct br_error_line *line)
         spread += (log(f.x[i]) - mean) * (log(f.x[i]) - mean);
     const double n = (double)f.rows - 2;
     const double half = gsl_cdf_tdist_Pinv(0.975, n) * sqrt(f.squares / n / spread);
-    return (struct br_interval){f.p - half, f.p + half};
+    return (struct br_other_interval){f.p - half, f.p + half};
 }
 
 /* The deviation of a fit: its sum of squares over rows less unknowns, weights of mean 1. */
@@ -264,7 +264,7 @@ static struct fit best_of(const struct br_error_line *line, double *least)
     return best;
 }
 
-static struct br_interval least_squares(const struct br_error_line *line)
+static struct br_other_interval least_squares(const struct br_error_line *line)
 {
     const size_t last = line->rows - 1;
     double sigma, low = INFINITY, high = -INFINITY;
@@ -279,10 +279,10 @@ static struct br_interval least_squares(const struct br_error_line *line)
     const double error = fabs(f.y[last] - f.limit);
     const double half =
         sigma < range ? 1.25 * error + sigma + off : 3 * sigma / range * (error + sigma + off);
-    return (struct br_interval){f.y[last] - half, f.y[last] + half};
+    return (struct br_other_interval){f.y[last] - half, f.y[last] + half};
 }
 
-struct br_interval br_other_order(enum br_other other, const struct br_error_line *line)
+struct br_other_interval br_other_order(enum br_other other, const struct br_error_line *line)
 {
     return other == BR_OTHER_TRIPLE      ? last_rates(line)
            : other == BR_OTHER_SQUARES   ? regression(line)
@@ -290,7 +290,7 @@ struct br_interval br_other_order(enum br_other other, const struct br_error_lin
                                          : robust(line);
 }
 
-struct br_interval br_other_limit(enum br_other other, const struct br_error_line *line)
+struct br_other_interval br_other_limit(enum br_other other, const struct br_error_line *line)
 {
     return other == BR_OTHER_TRIPLE      ? grid_index(line)
            : other == BR_OTHER_SQUARES   ? least_squares(line)

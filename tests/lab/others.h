@@ -18,14 +18,14 @@ enum br_other {
 };
 extern const char *const br_other_names[BR_OTHERS];
 
-struct br_interval {
+struct br_other_interval {
     double low, high; /* NaN: the method states none */
 };
 
 /* The interval of the order of errors. */
-struct br_interval br_other_order(enum br_other other, const struct br_error_line *line);
+struct br_other_interval br_other_order(enum br_other other, const struct br_error_line *line);
 
 /* The interval of the limit of values. */
-struct br_interval br_other_limit(enum br_other other, const struct br_error_line *line);
+struct br_other_interval br_other_limit(enum br_other other, const struct br_error_line *line);
 
 #endif
