@@ -473,6 +473,14 @@ static bool stays(const struct error_view *e)
     return hardly_changes(tried(e));
 }
 
+/* The error of a coefficient falls further. */
+static bool has_a_limit(const struct error_view *e)
+{
+    const double most = 20;
+    const char *name = tried(e)->name;
+    return name && br_is_coefficient(name) && tried(e)->most < most * tried(e)->least;
+}
+
 static bool has_a_sign(const struct error_view *e)
 {
     return tried(e)->least < 0 && !is_error_by_name(e);
@@ -493,6 +501,7 @@ static const struct {
     {falls, 1.5, "it falls with the sizes"},
     {is_count, -4, "it counts"},
     {stays, -2.5, "it hardly changes"},
+    {has_a_limit, -4, "it is a coefficient, and does not fall far"},
     {has_a_sign, -9, "it has both signs"},
     {has_words, -99, "it has words"},
 };

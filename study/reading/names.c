@@ -26,7 +26,8 @@ static const struct {
     {"n", 4,
      " n nel nelements resolution intervals subdivisions nsub ndivisions divisions numintervals "
      "nintervals nn "},
-    {"n", 2, " grid mesh gridsize size m "},
+    {"n", 4, " ncell "},
+    {"n", 2, " grid mesh gridsize size m ne nex nez "},
     {"n", 1.5, " points gridpoints numpts npts npoints numpoints nodes nnodes numnodes "},
     {"points", 2.5, " points gridpoints numpts npts npoints numpoints "},
     {"points", 1.75, " nodes nnodes numnodes meshpoints "},
@@ -44,7 +45,7 @@ static const struct {
     {"cells", 4,
      " ncells cells cell elements nelem nelems numelem numelements numberofelements numberofcells "
      "numcells cellcount triangles ntriangles nelt ntri elementcount elems nelements "},
-    {"cells", 1.75, " grid mesh gridsize size volumes "},
+    {"cells", 1.75, " grid mesh gridsize size volumes ncell ne "},
     {"k", 4, " k "},
     {"dt", 4,
      " dt \xce\x94t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "},
@@ -137,15 +138,17 @@ static bool without_letter(char text[LONGEST], const char *name, const char *col
     return true;
 }
 
-/* "N per direction", "cells along x": of one side. */
-static bool is_of_a_side(const char *name)
+/* "N per direction", "cells along x": n; "steps per period": steps. NULL: nothing of the kind. */
+static const char *of_a_part(const char *name)
 {
     char word[LONGEST];
     size_t words = 0;
-    bool side = false;
-    for (; next_word(&name, word); words++)
-        side |= lists(" per along direction side dim edge ", word);
-    return side && words > 1;
+    bool part = false, steps = false;
+    for (; next_word(&name, word); words++) {
+        part |= lists(" per along direction side dim edge ", word);
+        steps |= lists(" steps timesteps nsteps nt ", word);
+    }
+    return !part || words < 2 ? NULL : steps ? "steps" : "n";
 }
 
 /* The odds that a list gives a plain name; *most: of any column. */
@@ -259,7 +262,8 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
         unit = name + strlen(stripped) + 1;
         name = stripped;
     }
-    is = is ? is : is_of_a_side(name) ? "n" : is_length(name, unit) ? "h" : NULL;
+    is = is ? is : of_a_part(name);
+    is = is ? is : is_length(name, unit) ? "h" : NULL;
     plain(name, whole);
     without_fill(name, bare);
     if (!is) {
@@ -287,6 +291,31 @@ bool br_is_gap(const char *text)
                small);
 }
 
+bool br_is_coefficient(const char *name)
+{
+    char text[LONGEST];
+    plain(name, text);
+    const bool letters = *text == 'c' && text[1] && strchr("dlfmp", text[1]);
+    return (letters && strspn(text + 2, "pvfd0123456789") == strlen(text + 2)) ||
+           lists(" drag lift nusselt strouhal ", text);
+}
+
+static bool begins_as_error(const char *name)
+{
+    char word[LONGEST];
+    return next_word(&name, word) && lists(" e err error errors ", word);
+}
+
+int br_power_in(const char *name, char base[20])
+{
+    const size_t length = strcspn(name, "^*0123456789 ");
+    const char *at = name + length + strspn(name + length, "^*{ ");
+    if (!length || length >= 20 || *at < '2' || *at > '4' || at[1 + strspn(at + 1, "} ")])
+        return 0;
+    snprintf(base, 20, "%.*s", (int)length, name);
+    return *at - '0';
+}
+
 enum br_kind br_kind_of(const char *name)
 {
     char word[LONGEST], last[LONGEST] = "";
@@ -305,11 +334,14 @@ enum br_kind br_kind_of(const char *name)
     if (words == 1 && strcmp(last, "red") == 0)
         return BR_KIND_FACTOR;
     enum br_kind found = BR_KIND_UNKNOWN; /* "error_mb", "time_error": an error */
-    for (size_t i = 0; i < sizeof of_kinds / sizeof *of_kinds; i++)
-        for (at = name; next_word(&at, word);)
-            if (lists(of_kinds[i].words, word) &&
+    for (size_t i = 0; i < sizeof of_kinds / sizeof *of_kinds; i++) {
+        bool is_first = true; /* "e_u" is an error, N_e is none; "e_sigma" is that of a stress */
+        for (at = name; next_word(&at, word); is_first = false)
+            if (lists(of_kinds[i].words, word) && (is_first || strcmp(word, "e") != 0) &&
+                (strcmp(word, "sigma") != 0 || !begins_as_error(name)) &&
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
+    }
     return found                                            ? found
            : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
            : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR

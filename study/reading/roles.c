@@ -185,6 +185,18 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     return BR_OK;
 }
 
+/* "err_sigma" beside "err" has deviations; alone it is the error of a stress. */
+static void find_deviations(struct br_roles *r)
+{
+    for (size_t i = 0; i < r->columns; i++)
+        for (size_t k = 0; k < r->columns && r->column[i].name; k++) {
+            const char *of = r->column[k].name;
+            if (k != i && of && of[1] && r->column[i].kind == BR_KIND_ERROR &&
+                strstr(r->column[i].name, "sigma") && strstr(r->column[i].name, of))
+                r->column[i].kind = BR_KIND_DEVIATION;
+        }
+}
+
 static enum br_status take_names(struct br_roles *r, struct br_error *err)
 {
     const char *item;
@@ -210,6 +222,7 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
         c->is_value = c->name && br_lists(r->wishes->values, c->name);
         gci |= c->name && strcasestr(c->name, "gci");
     }
+    find_deviations(r);
     for (size_t i = 0; i < r->columns && gci; i++) /* r is the ratio of two sizes, p one order */
         if (r->column[i].name && !r->column[i].name[1] && strchr("rp", *r->column[i].name) &&
             !r->column[i].by_hand)
@@ -701,11 +714,33 @@ static size_t find_of(const struct br_roles *r, size_t deviations)
     return count == 1 ? found : BR_NO_ROW;
 }
 
+/* Whether a column is that power of the size which its name says: "h^2" beside h. */
+static bool is_power_of_size(const struct br_roles *r, size_t i)
+{
+    char base[20];
+    const struct br_role_column *c = &r->column[i];
+    const int power = c->name && !c->by_hand ? br_power_in(c->name, base) : 0;
+    for (int axis = 0; power && axis < BR_AXES; axis++) {
+        const struct br_resolution_column *size = br_resolution_column_find(axis ? "dt" : "h");
+        double low = INFINITY, high = -INFINITY;
+        for (size_t row = 0; r->log_z[axis] && row < r->rows; row++) {
+            const double off = log(c->number[row]) - power * r->log_z[axis][row];
+            low = fmin(low, off); /* that of a gap is none */
+            high = fmax(high, off);
+        }
+        if (br_name_odds(base, NULL, size) >= BR_USUAL_NAME && high - low <= 0.02)
+            return true;
+    }
+    return false;
+}
+
 static void take_errors(struct br_roles *r, const struct br_candidate *over, const size_t *sorted)
 {
     const bool asked = r->wishes->errors || r->wishes->values;
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
+        if (!is_asked(r, c) && is_power_of_size(r, i))
+            c->why = "a power of the size";
         if (c->role == BR_ROLE_SIZE || c->role == BR_ROLE_CASE || c->stated || c->why)
             continue;
         const bool by_hand = c->by_hand && c->kind == BR_KIND_UNKNOWN;

@@ -33,6 +33,12 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
+/* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
+int br_power_in(const char *name, char base[20]);
+
+/* Whether a name is that of a coefficient, which has a limit: "C_D", "cl", "drag". */
+bool br_is_coefficient(const char *name);
+
 /* Log odds that a column of this name and unit (NULL: none) states a resolution in this way. */
 double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column);
 
