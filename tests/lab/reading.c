@@ -23,8 +23,8 @@
  * that mean the same (columns and rows in other orders, other separators) must keep the answer;
  * those whose headings are spoilt (hidden, swapped, h called n) must keep the sizes, or ask.
  *
- * usage: reading [--dry] [--all] [FILE...]; --dry: reads the cases only; --all: names all tables
- * that are not right */
+ * usage: reading [--dry] [--all] [FILE...] (own, public1, public2); --dry: reads the cases only;
+ * --all: names all tables that are not right */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -696,7 +696,7 @@ static const struct {
     {"bars", with_bars, true, 0},
     {"tabs", with_tabs, true, 0},
     {"all headings hidden but rates", hide, false, 0},
-    {"headings of size and error swapped", swap, false, 0},
+    {"headings of size and error swapped", swap, false, 2},
     {"h called n, n called h", misname, false, 0},
 };
 enum { COPIES = sizeof copies / sizeof *copies };
@@ -794,6 +794,9 @@ static void check(const struct table_case *c)
     free(table);
 }
 
+enum { USUAL = 3 };
+static const char *const files_of_ours[USUAL] = {"own", "public1", "public2"};
+
 int main(int arguments, char **argument)
 {
     static struct table_case cases[MOST_CASES];
@@ -807,11 +810,11 @@ int main(int arguments, char **argument)
         dry |= strcmp(argument[first], "--dry") == 0;
         all |= strcmp(argument[first], "--all") == 0;
     }
-    snprintf(usual, sizeof usual, "%s/tests/data/reading/own.txt",
-             getenv("BEAMRATE_DATA") ? getenv("BEAMRATE_DATA") : ".");
     const bool own = first == arguments;
-    for (int i = first; i < arguments + own; i++) {
-        texts[files] = contents(own ? usual : argument[i]);
+    for (int i = 0; i < (own ? USUAL : arguments - first); i++) {
+        snprintf(usual, sizeof usual, "%s/tests/data/reading/%s.txt",
+                 getenv("BEAMRATE_DATA") ? getenv("BEAMRATE_DATA") : ".", files_of_ours[i % USUAL]);
+        texts[files] = contents(own ? usual : argument[first + i]);
         number = read_cases(texts[files++], cases, number);
     }
     for (size_t i = 0; i < COPIES; i++)
