@@ -139,7 +139,7 @@ enum { SEVERAL = 16 };
  */
 static double end_of(double length, size_t parts, size_t part)
 {
-    return length * (double)part / (double)parts;
+    return part < parts ? length * (double)part / (double)parts : length;
 }
 
 static void walk(const struct br_mesh *mesh, double length, size_t parts, const struct walker *w)
@@ -191,6 +191,8 @@ struct passage {
     double impulse; /* in this step, so far */
     bool jumps;     /* in it, or at its start */
     struct loss *loss;
+    const struct br_mesh *mesh; /* of f: it jumps at a node, if at all */
+    size_t node;                /* the last one that was looked at */
 };
 
 static void miss(struct loss *s, double missed, double position)
@@ -204,12 +206,19 @@ static void miss(struct loss *s, double missed, double position)
 
 /* Whether f jumps within round-off of a time. A front that passes there at that time passes a
  * neighbour at another one. */
-static bool jumps_at(const struct passage *p, double t)
+static bool jumps_at(struct passage *p, double t)
 {
     static const double round_off = 2e-15, aside = 1e-6, small = 0.01;
     const struct br_interval all = p->box.t;
     const struct br_scene *scene = p->loss->planned->scene;
     const double close = round_off * all.high, here = p->box.x.low, away = aside * scene->length;
+    const double *at = p->mesh->at;
+    while (p->node > 0 && at[p->node - 1] >= t - close)
+        p->node--;
+    while (p->node < p->mesh->count && at[p->node] < t - close)
+        p->node++;
+    if (!(at[p->node] <= t + close))
+        return false;
     const double x[2] = {here, here + (here > away ? -away : away)};
     double before[2], after[2];
     br_function_evaluate(p->f, 2, x, fmax(t - close, all.low), before);
@@ -297,7 +306,8 @@ static enum br_status measure_times(const struct br_function *f, double weight, 
                         .k = duration / (double)o->steps,
                         .weight = weight,
                         .most = most,
-                        .loss = s};
+                        .loss = s,
+                        .mesh = &mesh};
     if (isfinite(most)) {
         p.box.x = peak.x;
         status = load_mesh(f, BR_T, p.box, usual_rough, &mesh, &size, &failure);
