@@ -36,6 +36,7 @@ struct rows {
     double *log_gamma;     /* by degrees of freedom, of half of them */
     double *other;         /* x of the exponential law */
     double *behind_x, *behind_y; /* means of x, and of y by a law, of all rows behind this one */
+    struct br_law_place *place;  /* of a law */
 };
 
 /* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
@@ -138,7 +139,7 @@ static const double kept = 8.5;
 
 static void add_part(struct mixture *all, const struct part *p)
 {
-    if (!(p->weight > all->best - kept))
+    if (!(p->weight > all->best - (all->only_best ? 0 : kept)))
         return;
     all->best = fmax(all->best, p->weight);
     if (all->only_best)
@@ -365,18 +366,20 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
+    qq /= curved ? s->unit * s->unit : 1;
+    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
+    if (!all->few)
+        p.weight += all->log_gamma[s->rows - 2 - curved] - freedom / 2 * log(M_PI * squares);
+    if (!(p.weight > all->best - (all->only_best ? 0 : kept))) /* all that follows lowers it */
+        return;
     const double scatter = all->few ? 0 : left / freedom;
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
-    p.curve = curved ? (yq - xy / xx * xq) / qq : 0;
-    qq /= curved ? s->unit * s->unit : 1;
+    p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : 0;
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
-    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
-    p.weight += all->few
-                    ? log_prior_of_order(p.mean)
-                    : all->log_gamma[s->rows - 2 - curved] - freedom / 2 * log(M_PI * squares) -
-                          log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    p.weight += all->few ? log_prior_of_order(p.mean)
+                         : -log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
     if (isfinite(all->far)) {
         find_left(all->far, s, variance, xx, xy / xx, &p);
         p.own = br_priors.shared * sqrt((scatter + least * least * all->finest) / all->finest);
@@ -492,24 +495,35 @@ static void take_noise(const struct rows *r)
 /* The next term of a difference, relative to that of the error itself. */
 static double next_of_difference(const struct rows *r, size_t i, double s)
 {
+    if (r->ratio[i] == 0)
+        return 1;
     const double p = r->order, log_ratio = log(r->ratio[i]);
-    if (r->ratio[i] == 0 || fabs(p * log_ratio) < 1e-8)
+    if (fabs(p * log_ratio) < 1e-8)
         return 1;
     return expm1((p + s) * log_ratio) / expm1(p * log_ratio);
+}
+
+/* Sets what all members of a family have in common. */
+static void set_family(const struct rows *r, const struct br_family *f)
+{
+    for (size_t i = 0; i < r->count; i++) {
+        const double log_z = log(r->z[i]);
+        r->place[i] =
+            (struct br_law_place){log_z, exp(f->s * log_z) * next_of_difference(r, i, f->s),
+                                  exp(r->y[r->count - 1] - r->y[i])};
+        r->curve[i] = f->curve > 0
+                          ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve)
+                          : 0;
+    }
 }
 
 /* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. */
 static double bend(const struct rows *r, size_t i, const struct br_family *f, double parameter)
 {
-    const struct br_law_place at = {.z = r->z[i],
-                                    .next = next_of_difference(r, i, f->s),
-                                    .finest = r->y[r->count - 1] - r->y[i]};
-    const struct br_law_bend b = br_law_bend(f, parameter, &at);
+    const struct br_law_bend b = br_law_bend(f, parameter, &r->place[i]);
     r->bent[i] = r->y[i] - b.correction;
-    r->curve[i] =
-        f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve) : 0;
     r->weight[i] = b.weight * r->given[i];
-    r->log_density[i] = (b.density ? 0.5 * log(b.weight) : 0) + 0.5 * log(r->given[i]);
+    r->log_density[i] = 0.5 * log(b.density ? r->weight[i] : r->given[i]);
     return b.change;
 }
 
@@ -524,16 +538,17 @@ static void add_law(struct mixture *all, const struct rows *r, const struct br_f
                       share * change * (1 + br_priors.next_term / br_priors.truncation * change);
     }
     const double crosses = br_law_log_prior(f, parameter, r->z[0]);
-    const struct br_law_place finest = {exp(all->far), 1, 0};
+    const struct br_law_place finest = {all->far, exp(f->s * all->far), 1};
     const double there = isfinite(all->far) ? br_law_bend(f, parameter, &finest).correction : 0;
     const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
-    add_windows(all, r,
-                (struct part){.there = isfinite(there) ? there : 0,
-                              .curve_there = f->curve > 0 ? pow(finest.z / r->z[0], f->curve) : 0,
-                              .law = small ? BR_LAW_NEXT : f->law,
-                              .weight = log_prior + crosses,
-                              .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
+    add_windows(
+        all, r,
+        (struct part){.there = isfinite(there) ? there : 0,
+                      .curve_there = f->curve > 0 ? exp(f->curve * (all->far - log(r->z[0]))) : 0,
+                      .law = small ? BR_LAW_NEXT : f->law,
+                      .weight = log_prior + crosses,
+                      .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
 }
 
 /* The rows of an exact power, with a second correction of those before `middle`, or behind it. */
@@ -643,26 +658,31 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
                             .log_gamma = all->log_gamma};
     double best[BR_FAMILIES][MOST_CELLS];
     all->prior = log_prior;
+    set_family(r, &power);
     add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
     add_law(&rough, r, &power, 0, 0, log(br_priors.power));
     double top = rough.best;
-    for (size_t f = 0; f < BR_FAMILIES; f++)
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        set_family(r, &br_families[f]);
         for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
-            rough.best = -INFINITY;
+            rough.best = top - matters;
             add_member(&rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
             best[f][i] = rough.best;
             top = fmax(top, rough.best);
         }
+    }
     for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
         add_kink(all, r, i, false);
         add_kink(all, r, i, true);
     }
     add_exponentials(all, r);
-    for (size_t f = 0; f < BR_FAMILIES; f++)
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        set_family(r, &br_families[f]);
         for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
             for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
                 add_member(all, r, &br_families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
                            br_priors.truncation);
+    }
 }
 
 /* ---- the order ---- */
@@ -786,10 +806,11 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
                                     .outlier = count};
     double *room = br_allocate(ARRAYS * count + 1, sizeof *room);
     size_t *index = br_allocate(count + 1, sizeof *index);
+    struct br_law_place *place = br_allocate(count + 1, sizeof *place);
     struct mixture all = {.best = -INFINITY};
-    enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
+    enum br_status status = room && index && place ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
-        struct rows r = {.index = index, .z = room};
+        struct rows r = {.index = index, .z = room, .place = place};
         double **const array[] = {&r.x,        &r.y,           &r.ratio, &r.bent,
                                   &r.weight,   &r.log_density, &r.least, &r.given,
                                   &r.curve,    &r.rounded,     &r.noise, &r.other,
@@ -829,6 +850,7 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
         free(left.part);
     }
     free(all.part);
+    free(place);
     free(index);
     free(room);
     return status;
