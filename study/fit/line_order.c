@@ -118,6 +118,7 @@ struct part {
     double there, curve_there;    /* of values: the corrections at the finest one */
     double left, left_scale, own; /* logarithm of the error that is left there; its scatter, too */
     double power;                 /* g of the exponential law */
+    double misfit;                /* the standard deviation of logarithms */
     enum br_law law;
     size_t first, last, outlier;
 };
@@ -126,11 +127,13 @@ struct mixture {
     struct part *part; /* owned */
     size_t count, room;
     double best;   /* the largest logarithm of a weight */
+    double misfit; /* of the part that has it */
     double far;    /* of values: x of the finest one; NaN: they are errors */
     double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
     double prior;  /* logarithm of that of the scatter */
     const double *log_gamma; /* by degrees of freedom, of half of them */
     bool few;                /* of two differences: their order is its prior alone */
+    double keeps;            /* logarithm of weights below the best that are kept */
     bool only_best, starved;
 };
 
@@ -139,9 +142,12 @@ static const double kept = 8.5;
 
 static void add_part(struct mixture *all, const struct part *p)
 {
-    if (!(p->weight > all->best - (all->only_best ? 0 : kept)))
+    if (!(p->weight > all->best - all->keeps))
         return;
-    all->best = fmax(all->best, p->weight);
+    if (p->weight > all->best) {
+        all->best = p->weight;
+        all->misfit = p->misfit;
+    }
     if (all->only_best)
         return;
     if (all->count == all->room) {
@@ -370,16 +376,16 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
     if (!all->few)
         p.weight += all->log_gamma[s->rows - 2 - curved] - freedom / 2 * log(M_PI * squares);
-    if (!(p.weight > all->best - (all->only_best ? 0 : kept))) /* all that follows lowers it */
+    if (!(p.weight > all->best - all->keeps)) /* all that follows lowers it */
         return;
     const double scatter = all->few ? 0 : left / freedom;
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
     p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : 0;
+    p.misfit = sqrt(squares / freedom);
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
-    p.weight += all->few ? log_prior_of_order(p.mean)
-                         : -log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    p.weight += all->few ? log_prior_of_order(p.mean) : -log1p(p.misfit / br_priors.usual_scatter);
     if (isfinite(all->far)) {
         find_left(all->far, s, variance, xx, xy / xx, &p);
         p.own = br_priors.shared * sqrt((scatter + least * least * all->finest) / all->finest);
@@ -624,10 +630,12 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
     }
 }
 
-/* Parameters are first tried in coarse cells, then within the cells that may matter. */
+/* Parameters are first tried in coarse cells, then within the cells that may matter, as finely as
+ * the misfit there asks for. */
 enum { MOST_CELLS = 80, WITHIN = 6 };
-static const double cell = 0.16;  /* of the logarithm of the parameter */
-static const double matters = 10; /* logarithm of the weight below the best one's */
+static const double cell = 0.16;     /* of the logarithm of the parameter */
+static const double matters = 10;    /* logarithm of the weight below the best one's */
+static const double scatters = 0.03; /* with a misfit of so much, the middle is enough */
 
 static size_t cells_of(const struct br_family *f)
 {
@@ -656,8 +664,9 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
                             .few = all->few,
                             .finest = all->finest,
                             .log_gamma = all->log_gamma};
-    double best[BR_FAMILIES][MOST_CELLS];
+    double best[BR_FAMILIES][MOST_CELLS], within[BR_FAMILIES][MOST_CELLS];
     all->prior = log_prior;
+    all->keeps = kept;
     set_family(r, &power);
     add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
     add_law(&rough, r, &power, 0, 0, log(br_priors.power));
@@ -668,6 +677,7 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
             rough.best = top - matters;
             add_member(&rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
             best[f][i] = rough.best;
+            within[f][i] = fmin(WITHIN, ceil(scatters / rough.misfit));
             top = fmax(top, rough.best);
         }
     }
@@ -679,9 +689,11 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
     for (size_t f = 0; f < BR_FAMILIES; f++) {
         set_family(r, &br_families[f]);
         for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
-            for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
-                add_member(all, r, &br_families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
+            for (double j = 0, m = within[f][i]; j < m && best[f][i] > top - matters; j++) {
+                all->keeps = kept - log(WITHIN / m);
+                add_member(all, r, &br_families[f], (double)i * m + j, (double)n * m,
                            br_priors.truncation);
+            }
     }
 }
 
