@@ -272,7 +272,8 @@ struct sums {
     double q, xq, yq, qq, unit;              /* q: the curve; unit: it at the first row */
     double v, xv, xxv; /* v: the variance by rounding, with the square of the weight */
     double start, order;
-    bool behind;             /* the curve is of the fine rows */
+    double elsewhere, freedom; /* of a part of the rows with its own line: squares, and freedom */
+    bool behind;               /* the curve is of the fine rows */
     double noise_x, noise_y; /* means of the rows that are left out as noise; NaN: there are none */
     size_t rows;
 };
@@ -362,8 +363,8 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
         qq = s->qq - s->q * s->q / s->w;
         xx -= xq * xq / qq, xy -= xq * yq / qq, yy -= yq * yq / qq;
     }
-    const double left = fmax(0, yy - xy * xy / xx);
-    const double freedom = (double)s->rows - 2 - curved;
+    const double left = fmax(0, yy - xy * xy / xx) + s->elsewhere;
+    const double freedom = (double)s->rows - 2 - curved + s->freedom;
     if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
     const double seen = all->only_best                   ? cell_scatter
@@ -375,13 +376,13 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     qq /= curved ? s->unit * s->unit : 1;
     p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
     if (!all->few)
-        p.weight += all->log_gamma[s->rows - 2 - curved] - freedom / 2 * log(M_PI * squares);
+        p.weight += all->log_gamma[(size_t)freedom] - freedom / 2 * log(M_PI * squares);
     if (!(p.weight > all->best - all->keeps)) /* all that follows lowers it */
         return;
     const double scatter = all->few ? 0 : left / freedom;
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
-    p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : 0;
+    p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : p.curve;
     p.misfit = sqrt(squares / freedom);
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
@@ -569,8 +570,16 @@ static void bend_at(const struct rows *r, size_t middle, bool behind)
     }
 }
 
-/* One power, and from a row on another one. The order is that of the fine rows or, where they are
- * not more than the coarse ones, of these. */
+/* Whether the order of two powers may be that of the coarse rows: where these are more, or the fine
+ * ones few. */
+static bool coarse_may_count(size_t coarse_rows, size_t fine_rows)
+{
+    enum { FEW = 3 };
+    return fine_rows <= FEW || coarse_rows >= fine_rows;
+}
+
+/* One power, and from a row on another one. The order is that of the fine rows or of the coarse
+ * ones. */
 static void add_kink(struct mixture *all, const struct rows *r, size_t middle, bool behind)
 {
     enum { SIDE = 2 };
@@ -584,7 +593,7 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
                          .behind = behind,
                          .noise_x = NAN,
                          .noise_y = NAN};
-        if (middle + SIDE >= n || (behind && middle - first < n - 1 - middle))
+        if (middle + SIDE >= n || (behind && !coarse_may_count(middle - first, n - 1 - middle)))
             return;
         for (size_t i = first; i < n; i++)
             add_row(&s, r, i, 1);
@@ -596,6 +605,68 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
                                  .curve_there = behind ? all->far - r->x[middle] : 0,
                                  .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
                    br_priors.sure);
+    }
+}
+
+/* The line through rows that one power describes. */
+struct side {
+    struct sums sums;
+    double middle, xx, slope, level; /* level: at the middle */
+};
+
+static struct side side_of(const struct rows *r, size_t first, size_t last)
+{
+    struct side a = {
+        .sums = {.start = r->y[r->count - 1], .order = r->order, .noise_x = NAN, .noise_y = NAN}};
+    for (size_t i = first; i <= last; i++)
+        add_row(&a.sums, r, i, 1);
+    const struct sums *s = &a.sums;
+    a.middle = s->x / s->w;
+    a.level = s->y / s->w;
+    a.xx = s->xx - a.middle * s->x;
+    a.slope = (s->xy - a.middle * s->y) / a.xx;
+    return a;
+}
+
+/* Adds the order of one of two lines that meet between their rows, `gap` wide. */
+static void add_side(struct mixture *all, const struct side *a, const struct side *b, double gap,
+                     struct part p)
+{
+    const struct sums *other = &b->sums;
+    struct sums s = a->sums;
+    s.elsewhere = fmax(0, other->yy - b->level * other->y - b->slope * b->slope * b->xx);
+    s.freedom = (double)other->rows - 2;
+    p.curve = b->slope - a->slope;
+    p.outlier = p.last + 1;
+    p.weight += other->log_density - 0.5 * log(other->w * b->xx) - log(gap * fabs(p.curve));
+    add_window(all, &s, p, br_priors.sure);
+}
+
+/* The same where the two powers meet between this row and the next one, as the largest of errors at
+ * two places does. */
+static void add_break(struct mixture *all, const struct rows *r, size_t middle)
+{
+    enum { SIDE = 2 };
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    bend_at(r, middle, false);
+    for (size_t i = 0; i < n; i++)
+        r->curve[i] = 0;
+    for (size_t first = 0; first + SIDE <= middle + 1 && middle + SIDE < n; first += stride) {
+        const struct side coarse_side = side_of(r, first, middle),
+                          fine_side = side_of(r, middle + 1, n - 1);
+        const struct side *c = &coarse_side, *f = &fine_side;
+        const double meet = (f->level - f->slope * f->middle - c->level + c->slope * c->middle) /
+                            (c->slope - f->slope);
+        if (!(meet < r->x[middle] && meet > r->x[middle + 1]))
+            continue;
+        const double gap = r->x[middle] - r->x[middle + 1], prior = br_priors.kink / (double)n;
+        struct part p = {.law = BR_LAW_KINK, .first = first, .last = n - 1};
+        p.weight = log(prior * (1 - br_priors.kink_coarse)) + coarse(first);
+        add_side(all, f, c, gap, p);
+        p.weight = log(prior * br_priors.kink_coarse) + coarse(first);
+        p.last = middle;
+        if (coarse_may_count(middle + 1 - first, n - 1 - middle))
+            add_side(all, c, f, gap, p);
     }
 }
 
@@ -684,6 +755,8 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
     for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
         add_kink(all, r, i, false);
         add_kink(all, r, i, true);
+        if (!isfinite(all->far))
+            add_break(all, r, i);
     }
     add_exponentials(all, r);
     for (size_t f = 0; f < BR_FAMILIES; f++) {
