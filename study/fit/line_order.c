@@ -303,8 +303,9 @@ static double of_known(double freedom)
  * are few, and neither stay nor grow, of the coarse ones. */
 static bool is_of_law(const struct mixture *all, const struct part *p, bool behind)
 {
-    enum { MOST_COARSE = 2 };
+    enum { MOST_COARSE = 2, FALLS = 3 }; /* so many rows fall before others that stay: a floor */
     const double other = p->mean + p->curve, stays = br_priors.least_order;
+    const bool floors = behind && p->last - p->first >= FALLS;
     const bool grows = p->mean < -stays;
     if (p->mean < stays && p->first >= MOST_COARSE) /* errors fell before, and stay: a floor */
         return false;
@@ -317,7 +318,7 @@ static bool is_of_law(const struct mixture *all, const struct part *p, bool behi
     case BR_LAW_LOGARITHM:
         return p->mean > stays || isfinite(all->far);
     case BR_LAW_KINK:
-        return (p->mean > stays || (grows && !behind)) && other > (behind ? -stays : stays);
+        return (p->mean > stays || (grows && !behind)) && other > (floors ? -stays : stays);
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
         return p->mean > stays || grows || isfinite(all->far);
@@ -372,6 +373,9 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
                                                          : br_priors.least_scatter;
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
+    if (s->freedom > 0 || s->elsewhere > 0) /* of two lines: exact errors alone show them */
+        if (!(left <= (pow(br_priors.least_curved, 2) + s->v / s->w) * freedom))
+            return;
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
     qq /= curved ? s->unit * s->unit : 1;
     p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
@@ -647,6 +651,7 @@ static void add_side(struct mixture *all, const struct side *a, const struct sid
 static void add_break(struct mixture *all, const struct rows *r, size_t middle)
 {
     enum { SIDE = 2 };
+    static const double falls = 0.4; /* a smaller order is a plateau that scatters */
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     bend_at(r, middle, false);
     for (size_t i = 0; i < n; i++)
@@ -657,7 +662,7 @@ static void add_break(struct mixture *all, const struct rows *r, size_t middle)
         const struct side *c = &coarse_side, *f = &fine_side;
         const double meet = (f->level - f->slope * f->middle - c->level + c->slope * c->middle) /
                             (c->slope - f->slope);
-        if (!(meet < r->x[middle] && meet > r->x[middle + 1]))
+        if (!(meet < r->x[middle] && meet > r->x[middle + 1] && f->slope + r->order > falls))
             continue;
         const double gap = r->x[middle] - r->x[middle + 1], prior = br_priors.kink / (double)n;
         struct part p = {.law = BR_LAW_KINK, .first = first, .last = n - 1};
@@ -713,17 +718,57 @@ static size_t cells_of(const struct br_family *f)
     return (size_t)ceil(log(f->high / f->low) / cell);
 }
 
+static bool is_floor(const struct br_family *f)
+{
+    return f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
+}
+
 /* Adds a family at this fraction of the way from its lowest parameter to the highest. */
 static void add_member(struct mixture *all, const struct rows *r, const struct br_family *f,
                        double at, double members, double share)
 {
-    const bool stays =
-        f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
+    const bool stays = is_floor(f);
     const double parameter = f->low * pow(f->high / f->low, (at + 0.5) / members);
     if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
         return;
     add_law(all, r, f, parameter, share,
             log(f->prior / members * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
+}
+
+/* The largest weights of the cells of each family, and of all together. */
+struct cells {
+    double best[BR_FAMILIES][MOST_CELLS], top;
+};
+
+static void try_cells(struct mixture *rough, const struct rows *r, struct cells *c)
+{
+    c->top = rough->best;
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        set_family(r, &br_families[f]);
+        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
+            rough->best = c->top - matters;
+            add_member(rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
+            c->best[f][i] = rough->best;
+            c->top = fmax(c->top, rough->best);
+        }
+    }
+}
+
+/* How many members of a cell the misfit asks for: of the best member of all best cells. */
+static double members_within(struct mixture *rough, const struct rows *r, const struct cells *c)
+{
+    rough->best = -INFINITY;
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        const size_t n = cells_of(&br_families[f]);
+        size_t at = 0;
+        for (size_t i = 0; i < n; i++)
+            at = c->best[f][i] > c->best[f][at] ? i : at;
+        set_family(r, &br_families[f]);
+        for (size_t j = 0; j < WITHIN && c->best[f][at] > c->top - matters; j++)
+            add_member(rough, r, &br_families[f], (double)(at * WITHIN + j), (double)(n * WITHIN),
+                       br_priors.truncation);
+    }
+    return rough->best > -INFINITY ? fmin(WITHIN, ceil(scatters / rough->misfit)) : WITHIN;
 }
 
 static void add_laws(struct mixture *all, const struct rows *r, double log_prior)
@@ -735,23 +780,14 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
                             .few = all->few,
                             .finest = all->finest,
                             .log_gamma = all->log_gamma};
-    double best[BR_FAMILIES][MOST_CELLS], within[BR_FAMILIES][MOST_CELLS];
+    struct cells cells;
     all->prior = log_prior;
     all->keeps = kept;
     set_family(r, &power);
     add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
     add_law(&rough, r, &power, 0, 0, log(br_priors.power));
-    double top = rough.best;
-    for (size_t f = 0; f < BR_FAMILIES; f++) {
-        set_family(r, &br_families[f]);
-        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
-            rough.best = top - matters;
-            add_member(&rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
-            best[f][i] = rough.best;
-            within[f][i] = fmin(WITHIN, ceil(scatters / rough.misfit));
-            top = fmax(top, rough.best);
-        }
-    }
+    try_cells(&rough, r, &cells);
+    const double enough = members_within(&rough, r, &cells);
     for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
         add_kink(all, r, i, false);
         add_kink(all, r, i, true);
@@ -760,13 +796,13 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
     }
     add_exponentials(all, r);
     for (size_t f = 0; f < BR_FAMILIES; f++) {
+        const double m = is_floor(&br_families[f]) ? WITHIN : enough; /* near it errors tell more */
+        all->keeps = kept - log(WITHIN / m);
         set_family(r, &br_families[f]);
         for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
-            for (double j = 0, m = within[f][i]; j < m && best[f][i] > top - matters; j++) {
-                all->keeps = kept - log(WITHIN / m);
+            for (double j = 0; j < m && cells.best[f][i] > cells.top - matters; j++)
                 add_member(all, r, &br_families[f], (double)i * m + j, (double)n * m,
                            br_priors.truncation);
-            }
     }
 }
 
