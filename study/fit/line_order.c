@@ -387,7 +387,7 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
     p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : p.curve;
-    p.misfit = sqrt(squares / freedom);
+    p.misfit = all->few ? 0 : sqrt(squares / freedom);
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
     p.weight += all->few ? log_prior_of_order(p.mean) : -log1p(p.misfit / br_priors.usual_scatter);
@@ -652,6 +652,7 @@ static void add_break(struct mixture *all, const struct rows *r, size_t middle)
 {
     enum { SIDE = 2 };
     static const double falls = 0.4; /* a smaller order is a plateau that scatters */
+    static const double differs = 0.1, inside = 1e-3; /* of the gap: others meet at a row */
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     bend_at(r, middle, false);
     for (size_t i = 0; i < n; i++)
@@ -662,9 +663,11 @@ static void add_break(struct mixture *all, const struct rows *r, size_t middle)
         const struct side *c = &coarse_side, *f = &fine_side;
         const double meet = (f->level - f->slope * f->middle - c->level + c->slope * c->middle) /
                             (c->slope - f->slope);
-        if (!(meet < r->x[middle] && meet > r->x[middle + 1] && f->slope + r->order > falls))
+        const double gap = r->x[middle] - r->x[middle + 1], at = (r->x[middle] - meet) / gap;
+        if (!(at > inside && at < 1 - inside && f->slope + r->order > falls &&
+              fabs(c->slope - f->slope) > differs))
             continue;
-        const double gap = r->x[middle] - r->x[middle + 1], prior = br_priors.kink / (double)n;
+        const double prior = br_priors.kink / (double)n;
         struct part p = {.law = BR_LAW_KINK, .first = first, .last = n - 1};
         p.weight = log(prior * (1 - br_priors.kink_coarse)) + coarse(first);
         add_side(all, f, c, gap, p);
@@ -711,7 +714,7 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
 enum { MOST_CELLS = 80, WITHIN = 6 };
 static const double cell = 0.16;     /* of the logarithm of the parameter */
 static const double matters = 10;    /* logarithm of the weight below the best one's */
-static const double scatters = 0.03; /* with a misfit of so much, the middle is enough */
+static const double scatters = 0.04; /* with a misfit of so much, the middle is enough */
 
 static size_t cells_of(const struct br_family *f)
 {
