@@ -273,6 +273,7 @@ struct sums {
     double v, xv, xxv; /* v: the variance by rounding, with the square of the weight */
     double start, order;
     double elsewhere, freedom; /* of a part of the rows with its own line: squares, and freedom */
+    bool parted;               /* whether there is such a part */
     bool behind;               /* the curve is of the fine rows */
     double noise_x, noise_y; /* means of the rows that are left out as noise; NaN: there are none */
     size_t rows;
@@ -373,9 +374,8 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
                                                          : br_priors.least_scatter;
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
-    if (s->freedom > 0 || s->elsewhere > 0) /* of two lines: exact errors alone show them */
-        if (!(left <= (pow(br_priors.least_curved, 2) + s->v / s->w) * freedom))
-            return;
+    if (s->parted && !(left <= (pow(br_priors.least_curved, 2) + s->v / s->w) * freedom))
+        return; /* exact errors alone show two lines */
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
     qq /= curved ? s->unit * s->unit : 1;
     p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
@@ -640,6 +640,7 @@ static void add_side(struct mixture *all, const struct side *a, const struct sid
     struct sums s = a->sums;
     s.elsewhere = fmax(0, other->yy - b->level * other->y - b->slope * b->slope * b->xx);
     s.freedom = (double)other->rows - 2;
+    s.parted = true;
     p.curve = b->slope - a->slope;
     p.outlier = p.last + 1;
     p.weight += other->log_density - 0.5 * log(other->w * b->xx) - log(gap * fabs(p.curve));
