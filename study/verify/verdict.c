@@ -241,6 +241,31 @@ static bool blows_up(const struct br_case *c)
     return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
 }
 
+/* Where the errors begin to grow, by one law over all of them: their orders from size to size fall,
+ * the last two below zero, and turn more slowly again at the fine end. Round-off scatters instead,
+ * or is deep; NULL: they do not grow so. */
+static const struct br_point *turning_point(const struct br_case *c)
+{
+    enum { LEAST = 4 };
+    static const double grows = -0.25, scatter = 0.1, deep = 1e-6;
+    double rate = NAN, fell = NAN, turn = NAN;
+    for (size_t i = 1; i < c->points; i++) {
+        const double next = br_point_rate(&c->point[i - 1], &c->point[i]);
+        const double turned = i > 1 ? next - rate : -scatter;
+        if (c->point[i].deviation > 0 || !(turned < scatter)) /* NaN: there is no such order */
+            return NULL;
+        fell = turn, turn = turned;
+        if (i + 1 < c->points)
+            rate = next;
+        else if (!(rate < grows && next < grows && turn > fell))
+            return NULL;
+    }
+    const struct br_point *last = c->point + c->points - 1;
+    const bool clear = c->points > LEAST && last->error > deep * c->point[0].error &&
+                       !(last->error <= c->down_to) && c->point[1].error < c->point[0].error;
+    return clear ? last - 2 : NULL;
+}
+
 static void judge_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
@@ -465,7 +490,8 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 
 void br_case_judge(struct br_case *c)
 {
-    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c);
+    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c),
+                          *turns = turning_point(c);
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
@@ -474,6 +500,9 @@ void br_case_judge(struct br_case *c)
                  BR_VERIFY_LEAST_POINTS);
     else if (c->open)
         conclude(c, BR_INCONCLUSIVE, "%s", c->open);
+    else if (turns)
+        conclude(c, BR_FAIL, "the errors fall, but from %s on they grow, to %.2e", turns->label,
+                 c->point[c->points - 1].error);
     else if (beyond) {
         judge_beyond(c, beyond);
         judge_constant(c);
