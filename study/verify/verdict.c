@@ -257,7 +257,7 @@ static const struct br_point *turning_point(const struct br_case *c)
         fell = turn, turn = turned;
         if (i + 1 < c->points)
             rate = next;
-        else if (!(rate < grows && next < grows && turn > fell))
+        else if (!(rate < grows && next < grows && turn > 0.6 * fell))
             return NULL;
     }
     const struct br_point *last = c->point + c->points - 1;
