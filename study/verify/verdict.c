@@ -140,22 +140,33 @@ static void end_rates(const struct br_case *c, double *first, double *last)
     }
 }
 
-/* Says so where the last three orders from size to size go away from the order. */
+/* Whether orders from size to size, less the order, still change: they go away from it or, by more
+ * than its interval is wide, more slowly than a next term h^0.7 lets them. */
+static bool drifts(const struct br_case *c, const double off[3], double log_ratio)
+{
+    static const double slow = 0.7;
+    const double sign = off[2] < 0 ? -1 : 1, d = off[1] - off[0], e = off[2] - off[1];
+    const bool away = sign * d > 0 && sign * e > 0 && fabs(off[2]) > 0.03;
+    return away || (d * e > 0 && fabs(d + e) > c->order.high - c->order.low &&
+                    log(d / e) < slow * log_ratio);
+}
+
+/* Says so where the last three orders from size to size drift. */
 static void note_drift(struct br_case *c)
 {
     enum { LAST = 3 };
-    double off[LAST] = {NAN, NAN, NAN}, rate = NAN;
+    double off[LAST] = {NAN, NAN, NAN}, rate = NAN, log_ratio = NAN;
     for (size_t i = 0; i < c->points; i++) {
         const double next = rate_to(c, i);
         if (isnan(next))
             continue;
         rate = next;
+        log_ratio = log(c->point[i - 1].z / c->point[i].z);
         off[0] = off[1], off[1] = off[2], off[2] = rate - c->order.value;
     }
-    const double sign = off[2] < 0 ? -1 : 1;
-    if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.03)
+    if (drifts(c, off, log_ratio))
         br_append(c->note, sizeof c->note, "%sthe order from row to row still %s, the last is %.2f",
-                  c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
+                  c->note[0] ? "; " : "", off[2] < off[1] ? "falls" : "rises", rate);
 }
 
 /* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
