@@ -908,8 +908,13 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
         if (isfinite(all->far) && (law == BR_LAW_FLOOR || law == BR_LAW_FLOOR_SQUARES))
             found->converges -= all->part[i].weight;
     }
-    if (found->order.value < least_convergence)
+    if (found->order.value < least_convergence) {
         found->converges = 0;
+        if (isfinite(all->far)) {
+            found->order.low = fmin(found->order.low, 0);
+            found->low99 = fmin(found->low99, 0);
+        }
+    }
     found->first = r->index[likely->first];
     found->last = r->index[likely->last];
     if (likely->outlier < r->count)
