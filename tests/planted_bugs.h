@@ -1350,7 +1350,7 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_orders test_limit_of_a_grid", "left += rest;", "left = rest;"},
     {"limit_of_order_zero", "tolerance", "study/fit/line_order.c",
      "tests/test_grid_convergence test_sequence_kinds",
-     "if (found->order.value < least_convergence)\n        found->converges = 0;", ""},
+     "least_convergence) {\n        found->converges = 0;", "least_convergence) {"},
     {"problem_without_expectations", "expected", "study/orders/request.c", "tests/test_orders",
      "e->order, e->tolerance, e->down_to);\n        add_text(&sum, text);",
      "e->order, e->tolerance, e->down_to);\n        add_text(&sum, \"\");"},
