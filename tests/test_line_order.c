@@ -389,6 +389,24 @@ TEST(test_two_terms)
         fail_msg("%g to %g", found.order.low, found.order.high);
 }
 
+/* The largest of two errors, which meet between two rows: the interval holds both orders, with two
+ * rows of the finer one and with three. */
+TEST(test_break_between_rows)
+{
+    for (size_t fine = 2; fine < 4; fine++) {
+        struct br_order_point point[ROWS];
+        struct br_line_order found;
+        for (size_t i = 0; i < 7; i++) {
+            const double z = ldexp(1, -(int)i), meet = 1.4 * ldexp(1, (int)fine - 7);
+            point[i] =
+                (struct br_order_point){.z = z, .error = fmax(z * z, sqrt(meet) * pow(z, 1.5))};
+        }
+        find(point, 7, &found);
+        if (!(found.order.low <= 1.501 && 1.999 <= found.order.high))
+            fail_msg("%zu fine rows: %g to %g", fine, found.order.low, found.order.high);
+    }
+}
+
 /* Errors whose orders from row to row are given. */
 static size_t of_rates(const double *rate, struct br_order_point *point)
 {

@@ -285,6 +285,23 @@ TEST(test_notes)
     }
 }
 
+/* Errors x + x^-2 fall, then grow, whatever is expected. */
+TEST(test_turning)
+{
+    double error[6];
+    struct made m;
+    for (int i = 0; i < 6; i++)
+        error[i] = ldexp(1, 3 - i) + ldexp(1, 2 * i - 6);
+    make(&m, error, 6);
+    reach(&m, BR_FAIL, "on they grow, to 1.62e+01");
+    m.it.expected.order = 2;
+    reach(&m, BR_FAIL, "on they grow");
+    error[5] = 3; /* it does not grow by the same law */
+    make(&m, error, 6);
+    judge(&m.it);
+    assert_null(strstr(m.it.reason, "on they grow"));
+}
+
 /* What is advised would do. */
 TEST(test_advice)
 {

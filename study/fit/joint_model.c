@@ -33,8 +33,8 @@ static double bend(const struct br_family *f, double shape, double x, double fin
 {
     if (f->law == BR_LAW_NEXT)
         return log1p(expm1(shape) * pow(x, f->s));
-    return br_law_bend(f, exp(shape), &(struct br_law_place){.z = x / finest, .next = 1})
-        .correction;
+    const struct br_law_place at = {log(x / finest), pow(x / finest, f->s), 1};
+    return br_law_bend(f, exp(shape), &at).correction;
 }
 
 /* The same, 0 at the coarsest size, so that the constant is that of the error there. */

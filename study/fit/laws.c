@@ -62,7 +62,7 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
                                const struct br_law_place *at)
 {
     struct br_law_bend b = {.weight = 1};
-    double t = parameter * pow(at->z, f->s) * at->next;
+    double t = parameter * at->power;
     switch (f->law) {
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
@@ -84,19 +84,19 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
         b.change = t * t / (1 + t * t);
         break;
     case BR_LAW_LOGARITHM:
-        t = parameter - log(at->z);
+        t = parameter - at->log_z;
         b.correction = t > 0.1 ? f->s * log(t) : (double)NAN;
         b.change = 0.05;
         break;
     case BR_LAW_FLOOR:
     case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
-        t = (f->law == BR_LAW_OFFSET ? -parameter : parameter) * exp(at->finest);
+        t = (f->law == BR_LAW_OFFSET ? -parameter : parameter) * at->finest;
         b.correction = t < 1 ? -log1p(-t) : (double)NAN;
         b.weight = (1 - t) * (1 - t);
         b.change = fabs(t) / (1 + fabs(t));
         break;
     case BR_LAW_FLOOR_SQUARES:
-        t = parameter * exp(at->finest);
+        t = parameter * at->finest;
         b.correction = t < 1 ? -0.5 * log1p(-t * t) : (double)NAN;
         b.weight = (1 - t * t) * (1 - t * t);
         b.change = t * t;

@@ -87,11 +87,11 @@ struct br_priors {
 };
 extern const struct br_priors br_priors;
 
-/* A size, and the error there as far as a law needs it. */
+/* A size z over the finest one, and the error there, as far as a law needs them. */
 struct br_law_place {
-    double z;    /* over the finest size */
-    double next; /* the next term of a difference over that of the error itself; 1: no difference */
-    double finest; /* logarithm of the finest error over this one: of floors and offsets alone */
+    double log_z;
+    double power;  /* z^s; of a difference times the next term of it over that of the error */
+    double finest; /* the finest error over this one */
 };
 
 /* The logarithm of the correction there; NaN: the law allows no such error. */

@@ -36,6 +36,7 @@ struct rows {
     double *log_gamma;     /* by degrees of freedom, of half of them */
     double *other;         /* x of the exponential law */
     double *behind_x, *behind_y; /* means of x, and of y by a law, of all rows behind this one */
+    struct br_law_place *place;  /* of a law */
 };
 
 /* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
@@ -117,6 +118,7 @@ struct part {
     double there, curve_there;    /* of values: the corrections at the finest one */
     double left, left_scale, own; /* logarithm of the error that is left there; its scatter, too */
     double power;                 /* g of the exponential law */
+    double misfit;                /* the standard deviation of logarithms */
     enum br_law law;
     size_t first, last, outlier;
 };
@@ -125,11 +127,13 @@ struct mixture {
     struct part *part; /* owned */
     size_t count, room;
     double best;   /* the largest logarithm of a weight */
+    double misfit; /* of the part that has it */
     double far;    /* of values: x of the finest one; NaN: they are errors */
     double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
     double prior;  /* logarithm of that of the scatter */
     const double *log_gamma; /* by degrees of freedom, of half of them */
     bool few;                /* of two differences: their order is its prior alone */
+    double keeps;            /* logarithm of weights below the best that are kept */
     bool only_best, starved;
 };
 
@@ -138,9 +142,12 @@ static const double kept = 8.5;
 
 static void add_part(struct mixture *all, const struct part *p)
 {
-    if (!(p->weight > all->best - kept))
+    if (!(p->weight > all->best - all->keeps))
         return;
-    all->best = fmax(all->best, p->weight);
+    if (p->weight > all->best) {
+        all->best = p->weight;
+        all->misfit = p->misfit;
+    }
     if (all->only_best)
         return;
     if (all->count == all->room) {
@@ -265,7 +272,9 @@ struct sums {
     double q, xq, yq, qq, unit;              /* q: the curve; unit: it at the first row */
     double v, xv, xxv; /* v: the variance by rounding, with the square of the weight */
     double start, order;
-    bool behind;             /* the curve is of the fine rows */
+    double elsewhere, freedom; /* of a part of the rows with its own line: squares, and freedom */
+    bool parted;               /* whether there is such a part */
+    bool behind;               /* the curve is of the fine rows */
     double noise_x, noise_y; /* means of the rows that are left out as noise; NaN: there are none */
     size_t rows;
 };
@@ -295,8 +304,9 @@ static double of_known(double freedom)
  * are few, and neither stay nor grow, of the coarse ones. */
 static bool is_of_law(const struct mixture *all, const struct part *p, bool behind)
 {
-    enum { MOST_COARSE = 2 };
+    enum { MOST_COARSE = 2, FALLS = 3 }; /* so many rows fall before others that stay: a floor */
     const double other = p->mean + p->curve, stays = br_priors.least_order;
+    const bool floors = behind && p->last - p->first >= FALLS;
     const bool grows = p->mean < -stays;
     if (p->mean < stays && p->first >= MOST_COARSE) /* errors fell before, and stay: a floor */
         return false;
@@ -309,7 +319,7 @@ static bool is_of_law(const struct mixture *all, const struct part *p, bool behi
     case BR_LAW_LOGARITHM:
         return p->mean > stays || isfinite(all->far);
     case BR_LAW_KINK:
-        return (p->mean > stays || (grows && !behind)) && other > (behind ? -stays : stays);
+        return (p->mean > stays || (grows && !behind)) && other > (floors ? -stays : stays);
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
         return p->mean > stays || grows || isfinite(all->far);
@@ -355,8 +365,8 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
         qq = s->qq - s->q * s->q / s->w;
         xx -= xq * xq / qq, xy -= xq * yq / qq, yy -= yq * yq / qq;
     }
-    const double left = fmax(0, yy - xy * xy / xx);
-    const double freedom = (double)s->rows - 2 - curved;
+    const double left = fmax(0, yy - xy * xy / xx) + s->elsewhere;
+    const double freedom = (double)s->rows - 2 - curved + s->freedom;
     if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
     const double seen = all->only_best                   ? cell_scatter
@@ -364,19 +374,23 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
                                                          : br_priors.least_scatter;
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
+    if (s->parted && !(left <= (pow(br_priors.least_curved, 2) + s->v / s->w) * freedom))
+        return; /* exact errors alone show two lines */
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
+    qq /= curved ? s->unit * s->unit : 1;
+    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
+    if (!all->few)
+        p.weight += all->log_gamma[(size_t)freedom] - freedom / 2 * log(M_PI * squares);
+    if (!(p.weight > all->best - all->keeps)) /* all that follows lowers it */
+        return;
     const double scatter = all->few ? 0 : left / freedom;
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
-    p.curve = curved ? (yq - xy / xx * xq) / qq : 0;
-    qq /= curved ? s->unit * s->unit : 1;
+    p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : p.curve;
+    p.misfit = all->few ? 0 : sqrt(squares / freedom);
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
-    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
-    p.weight += all->few
-                    ? log_prior_of_order(p.mean)
-                    : all->log_gamma[s->rows - 2 - curved] - freedom / 2 * log(M_PI * squares) -
-                          log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    p.weight += all->few ? log_prior_of_order(p.mean) : -log1p(p.misfit / br_priors.usual_scatter);
     if (isfinite(all->far)) {
         find_left(all->far, s, variance, xx, xy / xx, &p);
         p.own = br_priors.shared * sqrt((scatter + least * least * all->finest) / all->finest);
@@ -492,24 +506,35 @@ static void take_noise(const struct rows *r)
 /* The next term of a difference, relative to that of the error itself. */
 static double next_of_difference(const struct rows *r, size_t i, double s)
 {
+    if (r->ratio[i] == 0)
+        return 1;
     const double p = r->order, log_ratio = log(r->ratio[i]);
-    if (r->ratio[i] == 0 || fabs(p * log_ratio) < 1e-8)
+    if (fabs(p * log_ratio) < 1e-8)
         return 1;
     return expm1((p + s) * log_ratio) / expm1(p * log_ratio);
+}
+
+/* Sets what all members of a family have in common. */
+static void set_family(const struct rows *r, const struct br_family *f)
+{
+    for (size_t i = 0; i < r->count; i++) {
+        const double log_z = log(r->z[i]);
+        r->place[i] =
+            (struct br_law_place){log_z, exp(f->s * log_z) * next_of_difference(r, i, f->s),
+                                  exp(r->y[r->count - 1] - r->y[i])};
+        r->curve[i] = f->curve > 0
+                          ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve)
+                          : 0;
+    }
 }
 
 /* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. */
 static double bend(const struct rows *r, size_t i, const struct br_family *f, double parameter)
 {
-    const struct br_law_place at = {.z = r->z[i],
-                                    .next = next_of_difference(r, i, f->s),
-                                    .finest = r->y[r->count - 1] - r->y[i]};
-    const struct br_law_bend b = br_law_bend(f, parameter, &at);
+    const struct br_law_bend b = br_law_bend(f, parameter, &r->place[i]);
     r->bent[i] = r->y[i] - b.correction;
-    r->curve[i] =
-        f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve) : 0;
     r->weight[i] = b.weight * r->given[i];
-    r->log_density[i] = (b.density ? 0.5 * log(b.weight) : 0) + 0.5 * log(r->given[i]);
+    r->log_density[i] = 0.5 * log(b.density ? r->weight[i] : r->given[i]);
     return b.change;
 }
 
@@ -524,16 +549,17 @@ static void add_law(struct mixture *all, const struct rows *r, const struct br_f
                       share * change * (1 + br_priors.next_term / br_priors.truncation * change);
     }
     const double crosses = br_law_log_prior(f, parameter, r->z[0]);
-    const struct br_law_place finest = {exp(all->far), 1, 0};
+    const struct br_law_place finest = {all->far, exp(f->s * all->far), 1};
     const double there = isfinite(all->far) ? br_law_bend(f, parameter, &finest).correction : 0;
     const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
-    add_windows(all, r,
-                (struct part){.there = isfinite(there) ? there : 0,
-                              .curve_there = f->curve > 0 ? pow(finest.z / r->z[0], f->curve) : 0,
-                              .law = small ? BR_LAW_NEXT : f->law,
-                              .weight = log_prior + crosses,
-                              .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
+    add_windows(
+        all, r,
+        (struct part){.there = isfinite(there) ? there : 0,
+                      .curve_there = f->curve > 0 ? exp(f->curve * (all->far - log(r->z[0]))) : 0,
+                      .law = small ? BR_LAW_NEXT : f->law,
+                      .weight = log_prior + crosses,
+                      .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
 }
 
 /* The rows of an exact power, with a second correction of those before `middle`, or behind it. */
@@ -548,8 +574,16 @@ static void bend_at(const struct rows *r, size_t middle, bool behind)
     }
 }
 
-/* One power, and from a row on another one. The order is that of the fine rows or, where they are
- * not more than the coarse ones, of these. */
+/* Whether the order of two powers may be that of the coarse rows: where these are more, or the fine
+ * ones few. */
+static bool coarse_may_count(size_t coarse_rows, size_t fine_rows)
+{
+    enum { FEW = 3 };
+    return fine_rows <= FEW || coarse_rows >= fine_rows;
+}
+
+/* One power, and from a row on another one. The order is that of the fine rows or of the coarse
+ * ones. */
 static void add_kink(struct mixture *all, const struct rows *r, size_t middle, bool behind)
 {
     enum { SIDE = 2 };
@@ -563,7 +597,7 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
                          .behind = behind,
                          .noise_x = NAN,
                          .noise_y = NAN};
-        if (middle + SIDE >= n || (behind && middle - first < n - 1 - middle))
+        if (middle + SIDE >= n || (behind && !coarse_may_count(middle - first, n - 1 - middle)))
             return;
         for (size_t i = first; i < n; i++)
             add_row(&s, r, i, 1);
@@ -575,6 +609,73 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
                                  .curve_there = behind ? all->far - r->x[middle] : 0,
                                  .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
                    br_priors.sure);
+    }
+}
+
+/* The line through rows that one power describes. */
+struct side {
+    struct sums sums;
+    double middle, xx, slope, level; /* level: at the middle */
+};
+
+static struct side side_of(const struct rows *r, size_t first, size_t last)
+{
+    struct side a = {
+        .sums = {.start = r->y[r->count - 1], .order = r->order, .noise_x = NAN, .noise_y = NAN}};
+    for (size_t i = first; i <= last; i++)
+        add_row(&a.sums, r, i, 1);
+    const struct sums *s = &a.sums;
+    a.middle = s->x / s->w;
+    a.level = s->y / s->w;
+    a.xx = s->xx - a.middle * s->x;
+    a.slope = (s->xy - a.middle * s->y) / a.xx;
+    return a;
+}
+
+/* Adds the order of one of two lines that meet between their rows, `gap` wide. */
+static void add_side(struct mixture *all, const struct side *a, const struct side *b, double gap,
+                     struct part p)
+{
+    const struct sums *other = &b->sums;
+    struct sums s = a->sums;
+    s.elsewhere = fmax(0, other->yy - b->level * other->y - b->slope * b->slope * b->xx);
+    s.freedom = (double)other->rows - 2;
+    s.parted = true;
+    p.curve = b->slope - a->slope;
+    p.outlier = p.last + 1;
+    p.weight += other->log_density - 0.5 * log(other->w * b->xx) - log(gap * fabs(p.curve));
+    add_window(all, &s, p, br_priors.sure);
+}
+
+/* The same where the two powers meet between this row and the next one, as the largest of errors at
+ * two places does. */
+static void add_break(struct mixture *all, const struct rows *r, size_t middle)
+{
+    enum { SIDE = 2 };
+    static const double falls = 0.4; /* a smaller order is a plateau that scatters */
+    static const double differs = 0.1, inside = 1e-3; /* of the gap: others meet at a row */
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    bend_at(r, middle, false);
+    for (size_t i = 0; i < n; i++)
+        r->curve[i] = 0;
+    for (size_t first = 0; first + SIDE <= middle + 1 && middle + SIDE < n; first += stride) {
+        const struct side coarse_side = side_of(r, first, middle),
+                          fine_side = side_of(r, middle + 1, n - 1);
+        const struct side *c = &coarse_side, *f = &fine_side;
+        const double meet = (f->level - f->slope * f->middle - c->level + c->slope * c->middle) /
+                            (c->slope - f->slope);
+        const double gap = r->x[middle] - r->x[middle + 1], at = (r->x[middle] - meet) / gap;
+        if (!(at > inside && at < 1 - inside && f->slope + r->order > falls &&
+              fabs(c->slope - f->slope) > differs))
+            continue;
+        const double prior = br_priors.kink / (double)n;
+        struct part p = {.law = BR_LAW_KINK, .first = first, .last = n - 1};
+        p.weight = log(prior * (1 - br_priors.kink_coarse)) + coarse(first);
+        add_side(all, f, c, gap, p);
+        p.weight = log(prior * br_priors.kink_coarse) + coarse(first);
+        p.last = middle;
+        if (coarse_may_count(middle + 1 - first, n - 1 - middle))
+            add_side(all, c, f, gap, p);
     }
 }
 
@@ -609,27 +710,69 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
     }
 }
 
-/* Parameters are first tried in coarse cells, then within the cells that may matter. */
+/* Parameters are first tried in coarse cells, then within the cells that may matter, as finely as
+ * the misfit there asks for. */
 enum { MOST_CELLS = 80, WITHIN = 6 };
-static const double cell = 0.16;  /* of the logarithm of the parameter */
-static const double matters = 10; /* logarithm of the weight below the best one's */
+static const double cell = 0.16;     /* of the logarithm of the parameter */
+static const double matters = 10;    /* logarithm of the weight below the best one's */
+static const double scatters = 0.04; /* with a misfit of so much, the middle is enough */
 
 static size_t cells_of(const struct br_family *f)
 {
     return (size_t)ceil(log(f->high / f->low) / cell);
 }
 
+static bool is_floor(const struct br_family *f)
+{
+    return f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
+}
+
 /* Adds a family at this fraction of the way from its lowest parameter to the highest. */
 static void add_member(struct mixture *all, const struct rows *r, const struct br_family *f,
                        double at, double members, double share)
 {
-    const bool stays =
-        f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
+    const bool stays = is_floor(f);
     const double parameter = f->low * pow(f->high / f->low, (at + 0.5) / members);
     if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
         return;
     add_law(all, r, f, parameter, share,
             log(f->prior / members * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
+}
+
+/* The largest weights of the cells of each family, and of all together. */
+struct cells {
+    double best[BR_FAMILIES][MOST_CELLS], top;
+};
+
+static void try_cells(struct mixture *rough, const struct rows *r, struct cells *c)
+{
+    c->top = rough->best;
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        set_family(r, &br_families[f]);
+        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
+            rough->best = c->top - matters;
+            add_member(rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
+            c->best[f][i] = rough->best;
+            c->top = fmax(c->top, rough->best);
+        }
+    }
+}
+
+/* How many members of a cell the misfit asks for: of the best member of all best cells. */
+static double members_within(struct mixture *rough, const struct rows *r, const struct cells *c)
+{
+    rough->best = -INFINITY;
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        const size_t n = cells_of(&br_families[f]);
+        size_t at = 0;
+        for (size_t i = 0; i < n; i++)
+            at = c->best[f][i] > c->best[f][at] ? i : at;
+        set_family(r, &br_families[f]);
+        for (size_t j = 0; j < WITHIN && c->best[f][at] > c->top - matters; j++)
+            add_member(rough, r, &br_families[f], (double)(at * WITHIN + j), (double)(n * WITHIN),
+                       br_priors.truncation);
+    }
+    return rough->best > -INFINITY ? fmin(WITHIN, ceil(scatters / rough->misfit)) : WITHIN;
 }
 
 static void add_laws(struct mixture *all, const struct rows *r, double log_prior)
@@ -641,28 +784,30 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
                             .few = all->few,
                             .finest = all->finest,
                             .log_gamma = all->log_gamma};
-    double best[BR_FAMILIES][MOST_CELLS];
+    struct cells cells;
     all->prior = log_prior;
+    all->keeps = kept;
+    set_family(r, &power);
     add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
     add_law(&rough, r, &power, 0, 0, log(br_priors.power));
-    double top = rough.best;
-    for (size_t f = 0; f < BR_FAMILIES; f++)
-        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
-            rough.best = -INFINITY;
-            add_member(&rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
-            best[f][i] = rough.best;
-            top = fmax(top, rough.best);
-        }
+    try_cells(&rough, r, &cells);
+    const double enough = members_within(&rough, r, &cells);
     for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
         add_kink(all, r, i, false);
         add_kink(all, r, i, true);
+        if (!isfinite(all->far))
+            add_break(all, r, i);
     }
     add_exponentials(all, r);
-    for (size_t f = 0; f < BR_FAMILIES; f++)
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        const double m = is_floor(&br_families[f]) ? WITHIN : enough; /* near it errors tell more */
+        all->keeps = kept - log(WITHIN / m);
+        set_family(r, &br_families[f]);
         for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
-            for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
-                add_member(all, r, &br_families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
+            for (double j = 0; j < m && cells.best[f][i] > cells.top - matters; j++)
+                add_member(all, r, &br_families[f], (double)i * m + j, (double)n * m,
                            br_priors.truncation);
+    }
 }
 
 /* ---- the order ---- */
@@ -763,8 +908,13 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
         if (isfinite(all->far) && (law == BR_LAW_FLOOR || law == BR_LAW_FLOOR_SQUARES))
             found->converges -= all->part[i].weight;
     }
-    if (found->order.value < least_convergence)
+    if (found->order.value < least_convergence) {
         found->converges = 0;
+        if (isfinite(all->far)) {
+            found->order.low = fmin(found->order.low, 0);
+            found->low99 = fmin(found->low99, 0);
+        }
+    }
     found->first = r->index[likely->first];
     found->last = r->index[likely->last];
     if (likely->outlier < r->count)
@@ -786,10 +936,11 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
                                     .outlier = count};
     double *room = br_allocate(ARRAYS * count + 1, sizeof *room);
     size_t *index = br_allocate(count + 1, sizeof *index);
+    struct br_law_place *place = br_allocate(count + 1, sizeof *place);
     struct mixture all = {.best = -INFINITY};
-    enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
+    enum br_status status = room && index && place ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
-        struct rows r = {.index = index, .z = room};
+        struct rows r = {.index = index, .z = room, .place = place};
         double **const array[] = {&r.x,        &r.y,           &r.ratio, &r.bent,
                                   &r.weight,   &r.log_density, &r.least, &r.given,
                                   &r.curve,    &r.rounded,     &r.noise, &r.other,
@@ -829,6 +980,7 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
         free(left.part);
     }
     free(all.part);
+    free(place);
     free(index);
     free(room);
     return status;

@@ -140,22 +140,33 @@ static void end_rates(const struct br_case *c, double *first, double *last)
     }
 }
 
-/* Says so where the last three orders from size to size go away from the order. */
+/* Whether orders from size to size, less the order, still change: they go away from it or, by more
+ * than its interval is wide, more slowly than a next term h^0.7 lets them. */
+static bool drifts(const struct br_case *c, const double off[3], double log_ratio)
+{
+    static const double slow = 0.7;
+    const double sign = off[2] < 0 ? -1 : 1, d = off[1] - off[0], e = off[2] - off[1];
+    const bool away = sign * d > 0 && sign * e > 0 && fabs(off[2]) > 0.03;
+    return away || (d * e > 0 && fabs(d + e) > c->order.high - c->order.low &&
+                    log(d / e) < slow * log_ratio);
+}
+
+/* Says so where the last three orders from size to size drift. */
 static void note_drift(struct br_case *c)
 {
     enum { LAST = 3 };
-    double off[LAST] = {NAN, NAN, NAN}, rate = NAN;
+    double off[LAST] = {NAN, NAN, NAN}, rate = NAN, log_ratio = NAN;
     for (size_t i = 0; i < c->points; i++) {
         const double next = rate_to(c, i);
         if (isnan(next))
             continue;
         rate = next;
+        log_ratio = log(c->point[i - 1].z / c->point[i].z);
         off[0] = off[1], off[1] = off[2], off[2] = rate - c->order.value;
     }
-    const double sign = off[2] < 0 ? -1 : 1;
-    if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.03)
+    if (drifts(c, off, log_ratio))
         br_append(c->note, sizeof c->note, "%sthe order from row to row still %s, the last is %.2f",
-                  c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
+                  c->note[0] ? "; " : "", off[2] < off[1] ? "falls" : "rises", rate);
 }
 
 /* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
@@ -239,6 +250,31 @@ static bool blows_up(const struct br_case *c)
     for (size_t i = 0; i < c->points; i++)
         largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
     return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
+}
+
+/* Where the errors begin to grow, by one law over all of them: their orders from size to size fall,
+ * the last two below zero, and turn more slowly again at the fine end. Round-off scatters instead,
+ * or is deep; NULL: they do not grow so. */
+static const struct br_point *turning_point(const struct br_case *c)
+{
+    enum { LEAST = 4 };
+    static const double grows = -0.25, scatter = 0.1, deep = 1e-6;
+    double rate = NAN, fell = NAN, turn = NAN;
+    for (size_t i = 1; i < c->points; i++) {
+        const double next = br_point_rate(&c->point[i - 1], &c->point[i]);
+        const double turned = i > 1 ? next - rate : -scatter;
+        if (c->point[i].deviation > 0 || !(turned < scatter)) /* NaN: there is no such order */
+            return NULL;
+        fell = turn, turn = turned;
+        if (i + 1 < c->points)
+            rate = next;
+        else if (!(rate < grows && next < grows && turn > 0.6 * fell))
+            return NULL;
+    }
+    const struct br_point *last = c->point + c->points - 1;
+    const bool clear = c->points > LEAST && last->error > deep * c->point[0].error &&
+                       !(last->error <= c->down_to) && c->point[1].error < c->point[0].error;
+    return clear ? last - 2 : NULL;
 }
 
 static void judge_beyond(struct br_case *c, const struct br_point *first)
@@ -465,7 +501,8 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 
 void br_case_judge(struct br_case *c)
 {
-    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c);
+    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c),
+                          *turns = turning_point(c);
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
@@ -474,6 +511,9 @@ void br_case_judge(struct br_case *c)
                  BR_VERIFY_LEAST_POINTS);
     else if (c->open)
         conclude(c, BR_INCONCLUSIVE, "%s", c->open);
+    else if (turns)
+        conclude(c, BR_FAIL, "the errors fall, but from %s on they grow, to %.2e", turns->label,
+                 c->point[c->points - 1].error);
     else if (beyond) {
         judge_beyond(c, beyond);
         judge_constant(c);
