@@ -179,6 +179,21 @@ static size_t add_rows(struct br_line *line, char *text, size_t number)
     return count + 1 + (comment != NULL);
 }
 
+/* A table that is a comment as a whole, as one in a program. */
+static void uncomment(struct br_line *line, size_t count)
+{
+    size_t comments = 0;
+    for (size_t i = 0; i < count; i++) {
+        comments += line[i].kind == BR_LINE_COMMENT;
+        if (line[i].kind == BR_LINE_TEXT)
+            return;
+    }
+    for (size_t i = 0; i < count && comments > 2; i++) {
+        line[i].text += strspn(line[i].text, "#%! \t");
+        find_kind(&line[i]);
+    }
+}
+
 enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
                             struct br_line **lines, size_t *count, struct br_error *err)
 {
@@ -205,6 +220,7 @@ enum br_status br_lines_cut(char *text, const char *path, struct br_store *store
         *end = '\0';
         *count += add_rows(&line[*count], begin, first);
     }
+    uncomment(line, *count);
     return BR_OK;
 }
 

@@ -228,5 +228,10 @@ bool br_field_read(const char *text, char mark, struct br_field_number *number)
         number->deviation /= 100;
         at = skip(at) + 1;
     }
+    if (at && at > plain && isdigit((unsigned char)at[-1]) && (*at == 'k' || *at == 'M')) {
+        const double many = *at++ == 'k' ? 1e3 : 1e6; /* "370k", "4.4M" cells */
+        number->value *= many;
+        number->deviation *= many;
+    }
     return at && !*at && isfinite(number->value) && !(number->deviation < 0);
 }

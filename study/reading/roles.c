@@ -817,6 +817,26 @@ static enum br_status check_swap(const struct br_roles *r, const struct br_candi
                    over->size.states->name);
 }
 
+/* Below a title that says rates, columns that stay between them are no errors. */
+static enum br_status check_rates_alone(const struct br_roles *r, struct br_error *err)
+{
+    const double least = 0.2, most = 12, falls = 2;
+    bool rates = false;
+    for (size_t i = 0; i < r->fields->lefts; i++)
+        rates |= strcasestr(r->fields->left[i].text, "rates") ||
+                 strcasestr(r->fields->left[i].text, "orders of convergence");
+    for (size_t i = 0; i < r->columns && rates; i++) {
+        const struct br_role_column *c = &r->column[i];
+        rates = !is_studied(c) || (!is_asked(r, c) && !c->by_hand && c->least >= least &&
+                                   c->most <= most && c->most < falls * c->least);
+    }
+    return rates
+               ? br_roles_refuse(r,
+                                 "found rates and no errors: --error NAME says which column is one",
+                                 NULL, err)
+               : BR_OK;
+}
+
 /* Beside the iterations of a solver, an error that does not fall from mesh to mesh is one of the
  * solver. */
 static enum br_status check_residuals(const struct br_roles *r, const size_t *sorted,
@@ -1000,7 +1020,8 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
         br_evidence_weigh(r, &over, sorted);
     take_errors(r, &over, sorted);
     return number_names(r, err) || check_swap(r, &over, sorted, err) ||
-                   check_residuals(r, sorted, err) || take_repeats(r, err)
+                   check_residuals(r, sorted, err) || check_rates_alone(r, err) ||
+                   take_repeats(r, err)
                ? err->status
                : BR_OK;
 }

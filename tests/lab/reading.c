@@ -23,7 +23,7 @@
  * that mean the same (columns and rows in other orders, other separators) must keep the answer;
  * those whose headings are spoilt (hidden, swapped, h called n) must keep the sizes, or ask.
  *
- * usage: reading [--dry] [--all] [FILE...] (own, public1, public2); --dry: reads the cases only;
+ * usage: reading [--dry] [--all] [FILE...] (own, public1 to 3); --dry: reads the cases only;
  * --all: names all tables that are not right */
 #include <ctype.h>
 #include <math.h>
@@ -697,7 +697,7 @@ static const struct {
     {"tabs", with_tabs, true, 0},
     {"all headings hidden but rates", hide, false, 0},
     {"headings of size and error swapped", swap, false, 2},
-    {"h called n, n called h", misname, false, 0},
+    {"h called n, n called h", misname, false, 2},
 };
 enum { COPIES = sizeof copies / sizeof *copies };
 
@@ -794,8 +794,8 @@ static void check(const struct table_case *c)
     free(table);
 }
 
-enum { USUAL = 3 };
-static const char *const files_of_ours[USUAL] = {"own", "public1", "public2"};
+enum { USUAL = 4 };
+static const char *const files_of_ours[USUAL] = {"own", "public1", "public2", "public3"};
 
 int main(int arguments, char **argument)
 {
