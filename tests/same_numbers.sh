@@ -23,11 +23,13 @@ orders_of() {
         sed -E 's/order in ([hk]) (\S+) \[(\S+), (\S+)\]/\1 \2 \3 \4/' | sort
 }
 
-# The same from lines "h ORDER LOW HIGH", rounded as the orders of $1 are, each to its own digits.
+# The same from lines "h ORDER LOW HIGH", rounded as the orders of $1 are, each to its own digits. No
+# interval is printed with a width of zero: its ends are then one digit apart from the order.
 as_printed() { # ANSWER NUMBERS
     awk 'NR == FNR { printed[$1] = $2; next }
         ($1 in printed) { d = length(printed[$1]) - index(printed[$1], ".")
-            printf "%s %.*f %.*f %.*f\n", $1, d, $2, d, $3, d, $4 }' "$1" "$2" | sort
+            zero = sprintf("%.*f", d, $3) == sprintf("%.*f", d, $4) ? 10 ^ -d : 0
+            printf "%s %.*f %.*f %.*f\n", $1, d, $2, d, $3 - zero, d, $4 + zero }' "$1" "$2" | sort
 }
 
 # "h ORDER LOW HIGH VERDICT" of each case in the JSON of a verdict.
@@ -67,7 +69,8 @@ agree() { # PRINTED EXACT
         digits = at ? substr($1, 1, at - 1) : $1; point = index(digits, ".")
         last = 10 ^ ((at ? substr($1, at + 1) : 0) - (point ? length(digits) - point : 0))
         off = $1 - exact; if (off < 0) off = -off
-        if (NF < 2 || ($1 == "-") != ($NF == "-") || !(off <= 0.500001 * last)) print }'
+        share = last > 9e-5 && last < 2e-4 ? 1.000001 : 0.500001 # a width of zero, as above
+        if (NF < 2 || ($1 == "-") != ($NF == "-") || !(off <= share * last)) print }'
     [ -s "$1" ] || echo "found no number"
 }
 

@@ -986,7 +986,7 @@ TEST(test_readings)
         {CSV, "x", "", NAN, "the output:1: the table is empty"},
         {CSV, "x", "n,x\n1,5,2\n", NAN, "the output:2: found more than 2 fields"},
         {CSV, "x", "n,x\n1\n", NAN, "found nothing below 'x'"},
-        {CSV, "x", "n,x\n1,\n", NAN, "found nothing below 'x'"},
+        {CSV, "x", "n,x\n1,\n", NAN, "found '', expected a finite number"},
         {CSV, "x", "n,x\n1,nan\n", NAN, "found 'nan'"},
         {CSV, "x", "n,x\n1,\"2", NAN, "quote"},
         {CSV, "x", "n,x\n1,\"2\"3", NAN, "quote"},
