@@ -422,14 +422,6 @@ static void try_classes(struct run *run, const struct br_error_class *class, try
     end(run);
 }
 
-static size_t count_classes(const struct br_error_class *class)
-{
-    size_t n = 0;
-    while (class[n].name)
-        n++;
-    return n;
-}
-
 /* All published columns. At most one order is worse than docs/observed-orders.md says. */
 static void try_all_published(struct run *run)
 {
@@ -555,8 +547,7 @@ int main(int arguments, char **argument)
         free(run.width);
         return 0;
     }
-    printf("TAP version 13\n1..%zu\n", count_classes(br_error_classes) + BR_GRID_CLASSES +
-                                           BR_VALUE_CLASSES + count_classes(br_limit_classes) + 1);
+    printf("TAP version 13\n");
     printf("# %%, seed %llu\n# %-29s %6s %6s %6s %6s %6s %6s %6s %8s\n",
            (unsigned long long)run.seed, "class", "claims", "covers", "silent", "PASS", "FAIL",
            "false", "narrow", "width");
@@ -579,6 +570,7 @@ int main(int arguments, char **argument)
     end(&run);
     if (!run.only || strcmp(run.only, "published") == 0)
         try_all_published(&run);
+    printf("1..%zu\n", run.number);
     free(run.width);
     return run.bad > 0;
 }
