@@ -131,8 +131,9 @@ static const struct br_option rows[] = {
          "parts over them."},
 
     /* what is wanted of numbers, what a march may take */
-    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all that fall as errors do)",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS | BR_FOR_TRADE,
+    {BR_OPT_ERROR, "error", 0, "LIST",
+     "columns that are errors (default: all that fall as errors do)", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_ORDERS | BR_FOR_TRADE,
      OWN({BR_FOR_TRADE, .argument = "E",
           .help = "goal: the cheapest way to this relative error, like 1e-3 or 5%",
           .more = "The norm of the error, divided by the norm of the solution. Without -n, -k, "
@@ -149,12 +150,12 @@ static const struct br_option rows[] = {
          "value. A column named here wins over all others of its axis."},
     {BR_OPT_WHERE, "where", 0, "COLUMN=WORD", "reads the rows of one study: method=P1", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
-     .more = "Without it, each study that a column of words or degrees tells apart is answered."},
+     .more = "Without it, each study is answered, for each word or degree of a column."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
      "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
      .commands = BR_FOR_ORDERS,
      .more =
-         "If it is not given, the growth of the numbers and the rates of a table tell it, or 2 "
+         "If it is not given, the growth of the numbers and the rates of a table decide it, or 2 "
          "is assumed for unknowns. The answer states what is assumed; a verdict then needs this "
          "option."},
     {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
@@ -248,8 +249,7 @@ static const struct br_option rows[] = {
     {BR_OPT_SET, "set", 0, "KEY=VALUE",
      "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,
      BR_TAKES_TEXT,
-     .commands =
-         BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES,
+     .commands = BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES,
      .more = "May be given several times. KEY is any key of the scene, with its section: length, "
              "friction.coefficient. It is added if the scene does not have it. VALUE is read as if "
              "it stood in the file. Of several scenes each has it.",

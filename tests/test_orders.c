@@ -188,7 +188,7 @@ static const struct {
      NULL},
     {"steps.csv", "L2", 1, "k from column Dt; errors: L2; left aside: Steps (another size)", NULL},
     {"trixi.txt", "rho_e error", 4,
-     "no column of the mesh, and the rates tell that h halves from row to row; errors: rho "
+     "no column of the mesh, and the rates show that h halves from row to row; errors: rho "
      "error, rho_v1 error, rho_e error; left aside: rho EOC, rho_v1 EOC, rho_e EOC (a rate); "
      "line 2 'l2' (title); line 10 'mean      4.00      mean      4.00      mean      4.00' "
      "(summary)",

@@ -232,7 +232,7 @@ static void say_sizes(struct source *s, enum br_axis axis)
     if (!size->states)
         return;
     if (r->halves) {
-        say(s, "no column of the mesh, and the rates tell that h halves from row to row");
+        say(s, "no column of the mesh, and the rates show that h halves from row to row");
         return;
     }
     say(s, "%s%s from column %s", s->text ? ", " : "", size->states->states,

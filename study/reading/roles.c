@@ -544,10 +544,9 @@ static enum br_status ask_where(const struct br_roles *r, size_t i, struct br_er
     while (r->dropped[row])
         row++;
     snprintf(item, sizeof item, "%.100s=%.100s", r->column[i].label, text_of(r, row, i));
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s: sizes repeat, and %s tells several studies apart: --where %s chooses one",
-                   r->wishes->path, r->column[i].label,
-                   br_quoted(quoted, sizeof quoted, &br_for_shell, item));
+    return br_fail(
+        err, BR_BAD_INPUT, "%s: sizes repeat, and %s has several studies: --where %s chooses one",
+        r->wishes->path, r->column[i].label, br_quoted(quoted, sizeof quoted, &br_for_shell, item));
 }
 
 /* "method = P1, degree = 2" */
@@ -646,7 +645,7 @@ static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
     if (!c.agrees_with_rates)
         return br_roles_refuse(r,
                                "found no column of a resolution, and the rates of the table do "
-                               "not tell that h halves from row to row",
+                               "not show that h halves from row to row",
                                NULL, err);
     r->halves = true;
     r->size[BR_AXIS_SPACE] = c.size;
@@ -911,13 +910,14 @@ static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_
 {
     char place[32], other[32];
     const bool lines = r->fields->line[row];
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s%s%s: the resolution is that of %s, expected each once: --where chooses "
-                   "one of several studies, by a column that tells them apart; of repeated runs, "
-                   "give the mean, or each size at least twice",
-                   r->wishes->path, lines ? ":" : ": ",
-                   br_row_place(r->fields, row, place) + (lines ? strlen("line ") : 0),
-                   br_row_place(r->fields, before, other));
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%s%s%s: the resolution is that of %s, expected each once: --where chooses "
+        "one of several studies, by a column that differs between them; of repeated runs, "
+        "give the mean, or each size at least twice",
+        r->wishes->path, lines ? ":" : ": ",
+        br_row_place(r->fields, row, place) + (lines ? strlen("line ") : 0),
+        br_row_place(r->fields, before, other));
 }
 
 /* Runs of one size: of repeated runs the mean counts, of adaptive meshes the last. */
