@@ -55,6 +55,25 @@ static void say_rates(struct br_document *d, const struct br_orders_line *line)
     }
 }
 
+/* "exponential: each degree divides the error by 8.1 [7.9, 8.3]"; false: it is not, or not known.
+ */
+static bool say_exponential(struct br_document *d, const struct br_orders *o,
+                            const struct br_orders_line *line, bool *first)
+{
+    const struct br_resolution_column *size = o->numbers->column[line->axis];
+    const struct br_estimate *factor = &line->observed.factor;
+    char text[64], of[32];
+    if (!(isfinite(factor->low) && isfinite(factor->high)))
+        return false;
+    const bool counts = !size->is_size && !size->is_volume && !size->is_power;
+    snprintf(of, sizeof of, counts ? "%s" : "1/%s",
+             counts ? size->name : br_axis_letters[line->axis]);
+    br_put_more(d, "%sexponential: %s %s divides the error by %s", separator(first),
+                size->is_degree ? "each" : "one more of", of,
+                br_order_text(factor, text, sizeof text));
+    return true;
+}
+
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -65,6 +84,8 @@ static void say_order(struct br_document *d, const struct br_orders *o,
     const bool none = !isfinite(order->value) || order->value <= 0 || order->low <= 0;
     if (value && isnan(order->value))
         return; /* of three values, whose p is said */
+    if (none && line && say_exponential(d, o, line, first))
+        return;
     br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
                 none ? "not measurable" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",

@@ -1365,6 +1365,8 @@ static const struct planted_bug planted_bugs[] = {
      "i ? br_point_rate(&p[i - 1], &p[i]) : NAN;", "i ? br_point_rate(&p[0], &p[i]) : NAN;"},
     {"axis_of_an_expectation_exchanged", "expected", "study/orders/expectations.c",
      "tests/test_orders", "e->axis = (enum br_axis)axis;", "e->axis = (enum br_axis)(1 - axis);"},
+    {"degree_has_an_order", "lost", "study/orders/orders.c", "tests/test_orders test_kinds_of_tables",
+     "|| size->is_degree))", "|| !size))"},
     {"joint_orders_exchanged", "expected", "study/orders/lines.c", "tests/test_orders",
      "br_case_take_order(c, answer->order,", "br_case_take_order(c, of->answer[other(axis)].order,"},
     {"verdict_beside_the_answer", "expected", "study/orders/expectations.c",

@@ -405,6 +405,31 @@ static void read_kind(char *row)
     br_numbers_clear(&n);
 }
 
+/* Errors over a degree have no order; each degree divides them by a factor. */
+TEST(test_degrees)
+{
+    struct br_orders_request q = br_orders_request_default();
+    struct br_numbers n;
+    struct br_orders o;
+    q.path = (char *)"t.csv";
+    q.table = (char *)"degree,e\n0,8e-1\n1,1.01e-1\n2,1.25e-2\n3,1.56e-3\n4,1.96e-4\n5,2.44e-5\n";
+    MUST(br_orders_read(&q, &n, &err));
+    MUST(br_orders_find(&n, 0, &o, &err));
+    const struct br_estimate factor = o.of[0].line[0].observed.factor;
+    assert_true(factor.low > 7.8 && factor.low < 8 && factor.high > 8 && factor.high < 8.2);
+    assert_true(isnan(o.of[0].answer[BR_AXIS_SPACE].order.value));
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+    MUST(br_expectations_read("e: h exponential 8 +- 0.5", 0, &q.expectation, &q.expectations,
+                              &err));
+    MUST(br_orders_read(&q, &n, &err));
+    br_numbers_clear(&n);
+    q.expectation[0].exponential = false;
+    REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, "errors over a degree have none");
+    br_numbers_clear(&n);
+    free(q.expectation);
+}
+
 TEST(test_kinds_of_tables)
 {
     br_test_rows("kinds of tables", read_kind);
@@ -595,8 +620,8 @@ TEST(test_stopped_fits)
     int asked = 0;
     const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
     struct br_joint_fit fit;
-    REFUSED(br_joint_fit_solve(&(struct br_observation){.x = {1, 1}, .error = 1}, 1, true, &stops, &fit,
-                               &err),
+    REFUSED(br_joint_fit_solve(&(struct br_observation){.x = {1, 1}, .error = 1}, 1, true, &stops,
+                               &fit, &err),
             BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
         struct br_numbers n = read_with(table_of(5, steps, 2, 1), &plain);
@@ -1155,9 +1180,9 @@ TEST(test_laws_of_lines_on_a_grid)
         find(kind_of(next_term_larger, kind, 6, NULL), NULL);
         h = &found.orders.of[0].answer[BR_AXIS_SPACE].order;
         assert_true(h->low <= 1 && 1 <= h->high && h->high - h->low < 0.2);
-        assert_int_equal(verdict_of(kind_of(next_term_larger, kind, 6, NULL), NULL,
-                                    "l2: h 2 +- 0.1", why),
-                         BR_FAIL);
+        assert_int_equal(
+            verdict_of(kind_of(next_term_larger, kind, 6, NULL), NULL, "l2: h 2 +- 0.1", why),
+            BR_FAIL);
         assert_null(strstr(why, "the two finest")); /* which the error in k bends */
     }
 }

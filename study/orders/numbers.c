@@ -160,7 +160,8 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
         const struct br_resolution_column *column = numbers->column[axis];
         const double z = row->z[axis];
         const double given = row->failure && isnan(row->given[axis]) ? 1 : row->given[axis];
-        if (column && !((given > 0 || (column->is_power && given >= 0)) && isfinite(given)))
+        if (column && !((given > 0 || ((column->is_power || column->is_degree) && given >= 0)) &&
+                        isfinite(given)))
             return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
                            column->name, given);
         if (column && !(z >= 1 / largest && z <= largest)) /* so that ratios do not overflow */

@@ -144,7 +144,8 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
     for (size_t l = 0; l < of->lines && !status; l++) {
         struct br_case *c = &of->line[l].observed;
         status = stopped(o->numbers, err) ? err->status : br_case_observe(c, BR_ORDERS_LEAST, err);
-        if (!status && is_scatter(&of->line[l]))
+        const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
+        if (!status && (is_scatter(&of->line[l]) || size->is_degree))
             br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);
         else if (!status && !leave_out)
             br_case_take_order(c, c->order, c->constant);

@@ -123,6 +123,11 @@ enum br_status br_orders_check_lists(const struct br_orders_request *r,
                            "%s: an order of %s in %s is expected, and there is no resolution of %s",
                            br_orders_path(r), e->quantity, br_axis_letters[e->axis],
                            e->axis == BR_AXIS_SPACE ? "the mesh" : "the time steps");
+        if (numbers->column[e->axis]->is_degree && !e->exponential)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: an order of %s is expected, and errors over a degree have none: 'h "
+                           "exponential 8 +- 0.5' expects that each degree divides them by 8",
+                           br_orders_path(r), e->quantity);
         if (numbers->unsettled)
             return br_fail(err, BR_BAD_INPUT, "%s: an order of %s in %s is expected, and %s",
                            br_orders_path(r), e->quantity, br_axis_letters[e->axis],

@@ -18,6 +18,9 @@ const struct br_resolution_column br_resolution_columns[BR_RESOLUTIONS + 1] = {
     {0},
 };
 
+const struct br_resolution_column br_degree_column = {"degree", "degrees", BR_AXIS_SPACE, .more = 1,
+                                                      .is_degree = true};
+
 const struct br_resolution_column *br_resolution_column_find(const char *name)
 {
     for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)

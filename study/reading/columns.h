@@ -17,11 +17,13 @@ struct br_resolution_column {
     bool is_volume; /* z is the number^(-1/dimension) */
     bool is_power;  /* z is 2^-number; where all are false, one over the number and `more` */
     int more;       /* intervals that a number of points has more than points: -1, or 1 */
+    bool is_degree; /* of polynomials: errors over it have no order, but may fall exponentially */
 };
 enum { BR_RESOLUTIONS = 10 };
 extern const struct br_resolution_column
     br_resolution_columns[BR_RESOLUTIONS + 1]; /* ends with a NULL name */
 const struct br_resolution_column *br_resolution_column_find(const char *name);
+extern const struct br_resolution_column br_degree_column; /* no row: a table alone has it */
 
 /* z of a number of the column. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);

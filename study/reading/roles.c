@@ -620,15 +620,35 @@ static bool may_halve(const struct br_roles *r)
     return rates && r->groups == 1;
 }
 
+/* Takes a degree as the axis, if its heading or the user says that it is one. */
+static enum br_status take_degree(struct br_roles *r, size_t i, struct br_error *err)
+{
+    struct br_role_column *c = &r->column[i];
+    if (c->kind != BR_KIND_DEGREE)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: %s is a degree, and errors over a degree have no order in h: "
+                       "--column '%s=degree' gives the factor of a degree, '%s=n' an order",
+                       r->wishes->path, c->name, c->name, c->name);
+    double *log_z = br_store_take(&r->store, r->rows + 1, sizeof *log_z);
+    if (!log_z)
+        return br_no_memory(err, "the table");
+    for (size_t row = 0; row < r->rows; row++)
+        log_z[row] =
+            r->dropped[row] ? (double)NAN : log(br_numbers_z(&br_degree_column, c->number[row], 1));
+    c->role = BR_ROLE_SIZE;
+    r->size[BR_AXIS_SPACE].states = &br_degree_column;
+    r->size[BR_AXIS_SPACE].column = i;
+    r->size[BR_AXIS_SPACE].dimension = 1;
+    r->log_z[BR_AXIS_SPACE] = log_z;
+    return BR_OK;
+}
+
 static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
 {
     struct br_candidate c = {.size = {br_resolution_column_find("level"), BR_NO_ROW, 1}};
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_DEGREE)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: %s is a degree, and errors over a degree have no order in h: a "
-                           "column of the mesh gives one (--column '%s=n', if it is no degree)",
-                           r->wishes->path, r->column[i].name, r->column[i].name);
+            return take_degree(r, i, err);
     if (!may_halve(r))
         return br_roles_refuse(r, "found no column of a resolution", NULL, err);
     c.log_z = br_store_take(&r->store, r->rows + 1, sizeof *c.log_z);
