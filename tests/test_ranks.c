@@ -158,12 +158,12 @@ static void test_all_commands(void **state)
         const char *says; /* of the output, or of standard error after a refusal */
     } rows[] = {
         {"tables --n 10,20 --k 0.02,0.01 --reference fine:40,5e-3", 0, "Table 2"},
-        {"study example2 --n 10,20 --k 0.1,0.05 --set 'contact.gap=1 mm'", 0, "contact.gap=1 mm"},
+        {"study example2 --n 10,20 --k 0.1,0.05 --set title=Other", 0, "with title=Other"},
         {"check example3 --json -", 0, "beamrate check"},
         {"check runs.yaml --trust", 2, disturb},
         {"orders errors.csv", 2, disturb},
         {"run example2 --n 40 --k 0.01", 0, "Example 2"},
-        {"run example2 --n 10 --k 0.1 --set 'contact.gap=1 mm'", 0, "contact.gap=1 mm"},
+        {"run example2 --n 10 --k 0.1 --set title=Other", 0, "with title=Other"},
         {"trade example2", 2, disturb},
         {"extremes floors", 2, "found 2 ranks, expected one"},
         {"figures --quiet --out figures", 0, ""},
