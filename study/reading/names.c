@@ -66,7 +66,7 @@ static const struct {
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
      "setup rhs solve solver assemble assembly mb gb mib gib nnz nonzeros threads ranks procs cores "
      "cycle index row memory mem ram newton gmres cg nit niter flops cost elapsed ms step id idx "
-     "date timestamp run_id speedup zeit "},
+     "date timestamp run_id speedup zeit tol tolerance atol rtol "},
     {BR_KIND_DEGREE, " degree deg poly polynomial polydeg pdeg "},
     {BR_KIND_REPEAT, " seed repeat replicate trial run sample rep repetition "},
     {BR_KIND_ERROR,
