@@ -25,8 +25,10 @@ struct run {
     char **listed;     /* with --all: the bundled scenes; owned; NULL: the command line has them */
     struct item *item; /* room for `most` */
     size_t most;
-    struct br_check *check; /* of the items that can be checked */
+    struct br_check *check; /* one an item */
     size_t count;
+    struct br_scene_check *scene; /* those of scenes */
+    size_t scenes;
     double wall_seconds;
     struct br_verdicts verdicts;
 };
@@ -87,12 +89,10 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     free(text);
     if (failed || foreign)
         return failed ? err->status : BR_OK;
-    r->check[r->count++] = (struct br_check){.path = item->path,
-                                             .name = item->scene.name,
-                                             .scene = &item->scene,
-                                             .verify = &item->verify,
-                                             .data = item->verify.data};
-    return BR_OK;
+    struct br_scene_check *c = &r->scene[r->scenes++];
+    *c = (struct br_scene_check){
+        .scene = &item->scene, .verify = &item->verify, .check = &r->check[r->count++]};
+    return br_scene_check_begin(c, item->path, err);
 }
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
@@ -103,7 +103,8 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
         return err->status;
     r->item = br_allocate(r->most + 1, sizeof *r->item);
     r->check = br_allocate(r->most + 1, sizeof *r->check);
-    if (!r->item || !r->check)
+    r->scene = br_allocate(r->most + 1, sizeof *r->scene);
+    if (!r->item || !r->check || !r->scene)
         return br_no_memory(err, "the scenes");
     for (size_t i = 0; i < r->most; i++)
         if (read_scene(r, i, r->all ? r->listed[i] : o->word[i], err))
@@ -114,14 +115,14 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
 /* An option that no study would use is refused, not ignored. */
 static enum br_status check_accepted(const struct run *r, struct br_error *err)
 {
-    const struct br_method **method = br_allocate(r->count * BR_VERIFY_KINDS + 1, sizeof *method);
+    const struct br_method **method = br_allocate(r->scenes * BR_VERIFY_KINDS + 1, sizeof *method);
     size_t count = 0;
     if (!method)
         return br_no_memory(err, "the options");
-    for (size_t i = 0; i < r->count; i++)
+    for (size_t i = 0; i < r->scenes; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-            if (r->check[i].verify && r->check[i].verify->study[kind].count)
-                method[count++] = &r->check[i].verify->study[kind].method;
+            if (r->scene[i].verify->study[kind].count)
+                method[count++] = &r->scene[i].verify->study[kind].method;
     const enum br_status status = br_method_check_used(&r->options->given[BR_OPT_METHOD],
                                                        BR_METHOD_OPTION, method, count, err);
     free(method);
@@ -131,8 +132,8 @@ static enum br_status check_accepted(const struct run *r, struct br_error *err)
 static void announce(const struct run *r)
 {
     struct br_foreseen work = {.together = true};
-    for (const struct br_check *c = r->check; c < r->check + r->count; c++) {
-        for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
+    for (const struct br_scene_check *c = r->scene; c < r->scene + r->scenes; c++) {
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
             const size_t cells = c->verify->study[kind].count;
             const size_t heads = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
             for (size_t h = 0; h < heads; h++) {
@@ -164,7 +165,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
     const struct br_observer *observer = br_progress_start("checking", r->session->quiet);
     enum br_status status = run_studies(r, observer, err);
     if (!status)
-        status = br_check_run(r->check, r->count, r->session->threads, observer, err);
+        status = br_check_run(r->scene, r->scenes, r->session->threads, observer, err);
     br_progress_end();
     r->wall_seconds = br_seconds() - start;
     return br_progress_result(status, err);
@@ -192,7 +193,7 @@ static enum br_status prepare_reports(struct run *r, struct br_error *err)
         failed = br_verdicts_spare(&r->verdicts, r->item[i].study.request.table_path, err);
     if (failed || br_session_open(r->session, err))
         return err->status;
-    br_warn_of_checks(r->check, r->count);
+    br_warn_of_checks(r->scene, r->scenes);
     return BR_OK;
 }
 
@@ -200,6 +201,8 @@ static void clear(struct run *r)
 {
     for (size_t i = 0; r->check && i < r->count; i++)
         br_check_clear(&r->check[i]);
+    for (size_t i = 0; i < r->scenes; i++)
+        br_scene_check_clear(&r->scene[i]);
     for (size_t i = 0; r->item && i < r->most; i++) {
         br_study_file_clear(&r->item[i].study);
         br_verify_clear(&r->item[i].verify);
@@ -207,6 +210,7 @@ static void clear(struct run *r)
     }
     free(r->item);
     free(r->check);
+    free(r->scene);
     br_verdicts_clear(&r->verdicts);
     br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
