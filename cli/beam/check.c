@@ -4,10 +4,12 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "cli/beam/session.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/verdicts.h"
 #include "study/scene/file.h"
+#include "study/scene/method_fields.h"
 
 /* One scene or study file of the command; checks point into it. */
 struct item {
