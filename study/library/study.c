@@ -228,10 +228,10 @@ static enum br_status check_scene(struct br_check *check, const struct beamrate_
     const struct br_scene *own = &call->scene;
     if (br_call_take_scene(call, scene) || check_threads(threads, err))
         return err->status;
-    *check = (struct br_check){
-        .path = scene->path, .name = own->name, .scene = own, .verify = &scene->verify};
+    *check = (struct br_check){.path = scene->path, .name = own->name};
+    const struct br_scene_check of = {.scene = own, .verify = &scene->verify, .check = check};
     br_library_watch_begin(&watch, observer);
-    const enum br_status status = br_check_run(check, 1, threads, &watch.ours, err);
+    const enum br_status status = br_check_run(&of, 1, threads, &watch.ours, err);
     br_library_watch_end(&watch);
     const struct br_error *failure = &check->failure;
     return status || !failure->status ? status

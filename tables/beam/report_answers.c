@@ -6,7 +6,7 @@
 #include "solver/scene.h"
 #include "study/fit/report.h"
 #include "study/scene/method_fields.h"
-#include "tables/report_parts.h"
+#include "tables/beam/report_parts.h"
 
 /* ---- the answer ---- */
 

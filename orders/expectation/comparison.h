@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A check against an earlier one: what has moved, and how serious that is, so that a slow drift is
  * seen before an order breaks. */
-#ifndef BR_STUDY_VERIFY_COMPARISON_H
-#define BR_STUDY_VERIFY_COMPARISON_H
+#ifndef BR_ORDERS_EXPECTATION_COMPARISON_H
+#define BR_ORDERS_EXPECTATION_COMPARISON_H
 
-#include "study/scene/method_fields.h"
-#include "study/verify/check.h"
+#include "orders/expectation/check.h"
 
 struct json_t;
 
@@ -18,25 +17,22 @@ enum br_severity {
 };
 extern const char *const br_severity_names[];
 
-/* The method of a study, each field as br_method_field_text has it; "": it was not used. */
-struct br_old_method {
-    bool known; /* the study was made */
-    char value[BR_METHOD_FIELDS][BR_METHOD_VALUE];
-};
-
-/* The text of a method for a later check (out). */
-void br_old_method_of(const struct br_method *m, struct br_old_method *old);
-
 /* The results of an earlier check: name, data, problem and cost of each scene; norm, order,
  * constant, expectation and verdict of each case. */
 struct br_old_check {
-    struct br_check *check;                          /* count; owned with their cases */
-    struct br_old_method (*method)[BR_VERIFY_KINDS]; /* of each; owned */
+    const char *path;       /* of the report; borrowed */
+    struct br_check *check; /* count; owned with their cases */
     size_t count;
     const char *version; /* of the program; NULL: not known */
-    struct json_t *json; /* owned; its strings are borrowed above */
+    struct json_t *json; /* owned; its strings are borrowed above; methods.N.KIND has the settings
+                            of check N */
 };
 void br_old_check_clear(struct br_old_check *old);
+
+/* The text of a setting of check i as its report has it, or the usual one where the key is missing;
+ * NULL: it is needed, or is no value. buffer: for a number. */
+const char *br_old_setting(const struct br_old_check *old, size_t i, enum br_verify_kind kind,
+                           const struct br_setting *setting, char buffer[BR_SETTING_USUAL]);
 
 struct br_difference {
     char subject[192];  /* "example1 space l2 axial: order" */
@@ -53,8 +49,8 @@ struct br_comparison {
 };
 
 /* Whether a comparison makes sense, before anything is run: the names of the scenes must differ,
- * and at least one of them must have been there before, of the same problem. Fails with
- * BR_BAD_INPUT. */
+ * and at least one of them must have been there before, of the same problem, with its settings.
+ * Fails with BR_BAD_INPUT. */
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err);
 

@@ -6,7 +6,7 @@
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
-#include "tables/report_parts.h"
+#include "tables/beam/report_parts.h"
 
 enum { VALUE = 80 };
 

@@ -2,7 +2,7 @@
 /* Figures 2 to 10 of the paper. To add a figure: a filler, and a row. */
 #include <stddef.h>
 
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "study/paper/paper.h"
 
 static const char horizontal[] = "horizontal displacement u (m)",

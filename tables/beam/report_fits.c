@@ -5,7 +5,7 @@
 
 #include "solver/scene.h"
 #include "study/fit/report.h"
-#include "tables/report_parts.h"
+#include "tables/beam/report_parts.h"
 
 /* ---- fits ---- */
 

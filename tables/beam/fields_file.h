@@ -2,8 +2,8 @@
 /* The files of a march: the tip's history as CSV, and the fields at the output times twice, as CSV
  * and as XDMF. The caller opens and closes them. The fields of one output time are written before
  * those of the next, so only one is in memory. */
-#ifndef BR_TABLES_FIELDS_FILE_H
-#define BR_TABLES_FIELDS_FILE_H
+#ifndef BR_TABLES_BEAM_FIELDS_FILE_H
+#define BR_TABLES_BEAM_FIELDS_FILE_H
 
 #include "study/run/run.h"
 #include "tables/document.h"

@@ -2,7 +2,7 @@
 /* Components of the error over the time step, or over the mesh width. */
 #include <math.h>
 
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "study/scene/method_fields.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/verify/comparison.h"
+#include "orders/expectation/comparison.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "base/words.h"
-#include "study/fit/theory.h"
 
 enum { SUBJECT = 192 }; /* characters of a difference's subject */
 
@@ -25,7 +24,6 @@ void br_old_check_clear(struct br_old_check *old)
     for (size_t i = 0; i < old->count; i++)
         br_check_clear(&old->check[i]);
     free(old->check);
-    free(old->method);
     json_decref(old->json);
     *old = (struct br_old_check){0};
 }
@@ -183,38 +181,55 @@ static void compare_cases(struct br_comparison *out, const struct br_check *chec
 
 /* ---- methods ---- */
 
-void br_old_method_of(const struct br_method *m, struct br_old_method *old)
+/* The object methods.I.KIND; NULL: that study was not made. */
+static const json_t *old_method(const struct br_old_check *old, size_t i, enum br_verify_kind kind)
 {
-    *old = (struct br_old_method){.known = true};
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        if (br_method_field_reported(&br_method_fields[i], m))
-            br_method_field_text(&br_method_fields[i], m, old->value[i]);
+    char number[32];
+    snprintf(number, sizeof number, "%zu", i);
+    const json_t *methods = json_object_get(json_object_get(old->json, "methods"), number);
+    return json_object_get(methods, br_verify_names[kind]);
 }
 
-/* Numbers of another method are no continuation. A kernel is the machine's. */
-static void compare_method(struct br_comparison *out, const struct br_check *check,
-                           enum br_verify_kind kind, const struct br_old_method *old)
+const char *br_old_setting(const struct br_old_check *old, size_t i, enum br_verify_kind kind,
+                           const struct br_setting *s, char buffer[BR_SETTING_USUAL])
 {
-    char subject[SUBJECT];
-    struct br_old_method now;
-    br_old_method_of(&check->verify->study[kind].method, &now);
-    snprintf(subject, sizeof subject, "%.100s %s", check->name, br_verify_names[kind]);
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        const struct br_method_field *f = &br_method_fields[i];
-        const char *a = old->value[i], *b = now.value[i];
-        if (!f->unsaid && strcmp(a, b) != 0)
-            add(out, subject, "another method than the baseline's", NAN, NAN,
-                i == BR_METHOD_KERNEL ? BR_NOTE : BR_SERIOUS, "%s %.40s -> %.40s", f->name,
-                *a ? a : "not used", *b ? b : "not used");
-    }
+    const json_t *method = old_method(old, i, kind);
+    const json_t *value =
+        json_object_get(s->group ? json_object_get(method, s->group) : method, s->key);
+    if (!value)
+        return s->needed ? NULL : s->usual;
+    if (json_is_number(value))
+        return br_shortest(json_number_value(value), buffer, BR_SETTING_USUAL);
+    return json_is_null(value) ? "" : json_string_value(value);
 }
 
+/* The settings of a study that is made now and was made before; NULL: there are none. */
+static const struct br_settings *settings_of(const struct br_check *check,
+                                             const struct br_old_check *old, size_t i, int kind)
+{
+    return check->method && check->method[kind].count &&
+                   old_method(old, i, (enum br_verify_kind)kind)
+               ? &check->method[kind]
+               : NULL;
+}
+
+/* Numbers of another method are no continuation. i: of the check before. */
 static void compare_methods(struct br_comparison *out, const struct br_check *check,
-                            const struct br_old_method old[BR_VERIFY_KINDS])
+                            const struct br_old_check *old, size_t i)
 {
-    for (int kind = 0; kind < BR_VERIFY_KINDS && check->verify; kind++)
-        if (old[kind].known && check->verify->study[kind].count)
-            compare_method(out, check, (enum br_verify_kind)kind, &old[kind]);
+    char subject[SUBJECT], buffer[BR_SETTING_USUAL];
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_settings *now = settings_of(check, old, i, kind);
+        snprintf(subject, sizeof subject, "%.100s %s", check->name, br_verify_names[kind]);
+        for (const struct br_setting *s = now ? now->row : NULL; now && s < now->row + now->count;
+             s++) {
+            const char *a = br_old_setting(old, i, (enum br_verify_kind)kind, s, buffer);
+            if (s->compared && strcmp(a, s->text) != 0)
+                add(out, subject, "another method than the baseline's", NAN, NAN, BR_SERIOUS,
+                    "%s %.40s -> %.40s", s->name, *a ? a : "not used",
+                    *s->text ? s->text : "not used");
+        }
+    }
 }
 
 /* ---- scenes ---- */
@@ -303,8 +318,8 @@ static void compare_cost(struct br_comparison *out, const struct br_check *check
     const double now = check->seconds / check->element_steps * 1e9;
     char subject[SUBJECT];
     snprintf(subject, sizeof subject, "%.100s", check->name);
-    if (!check->scene)
-        return; /* another program's work is not known */
+    if (check->of_program)
+        return; /* its work is not known */
     add(out, subject, "element-steps", old->element_steps, check->element_steps,
         grade(factor(old->element_steps, check->element_steps), work_steps), "%s", "");
     if (isfinite(before) && isfinite(now)) /* both did march */
@@ -332,6 +347,24 @@ static enum br_status check_problem(const struct br_check *check, const struct b
         check->name, old->problem, check->problem);
 }
 
+/* The settings that will be compared must be there. */
+static enum br_status check_methods(const struct br_check *check, const struct br_old_check *old,
+                                    size_t i, struct br_error *err)
+{
+    char buffer[BR_SETTING_USUAL];
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_settings *now = settings_of(check, old, i, kind);
+        for (size_t j = 0; now && j < now->count; j++)
+            if (now->row[j].compared &&
+                !br_old_setting(old, i, (enum br_verify_kind)kind, &now->row[j], buffer))
+                return br_fail(err, BR_BAD_INPUT,
+                               "%s: methods: found no %s of %s %s, expected it as 'beamrate check "
+                               "--json' writes it",
+                               old->path, now->row[j].key, check->name, br_verify_names[kind]);
+    }
+    return BR_OK;
+}
+
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err)
 {
@@ -344,7 +377,8 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                checks[i].name);
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
         found |= before != NULL;
-        if (before && check_problem(&checks[i], before, err))
+        if (before && (check_problem(&checks[i], before, err) ||
+                       check_methods(&checks[i], old, (size_t)(before - old->check), err)))
             return err->status;
     }
     return found ? BR_OK
@@ -362,7 +396,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         most += old->check[i].count;
     for (size_t i = 0; i < count; i++) {
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
-        most += 4 * checks[i].count + 3 + (size_t)BR_VERIFY_KINDS * BR_METHOD_FIELDS;
+        most += 4 * checks[i].count + 3 + (size_t)BR_VERIFY_KINDS * BR_MOST_SETTINGS;
         most += lines_of(checks[i].data) + (before ? lines_of(before->data) : 0);
     }
     out->difference = br_allocate(most, sizeof *out->difference);
@@ -373,7 +407,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         compare_cases(out, &checks[i], before);
         if (before) {
             compare_scene(out, &checks[i], before);
-            compare_methods(out, &checks[i], old->method[before - old->check]);
+            compare_methods(out, &checks[i], old, (size_t)(before - old->check));
             compare_cost(out, &checks[i], before);
         }
     }

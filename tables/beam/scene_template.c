@@ -3,7 +3,7 @@
 
 #include "study/scene/schema.h"
 #include "study/verify/verify.h"
-#include "tables/scene_format.h"
+#include "tables/beam/scene_format.h"
 
 enum { COLUMN = 46 }; /* where comments begin */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tables/fields_file.h"
+#include "tables/beam/fields_file.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "solver/scene.h"
 #include "study/scene/method_fields.h"
 #include "study/trade/split.h"
-#include "tables/report_parts.h"
+#include "tables/beam/report_parts.h"
 
 enum { TEXT = 640 };
 

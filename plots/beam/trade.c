@@ -2,7 +2,7 @@
 /* Work-precision diagrams of a trade: relative error over what it costs. */
 #include <math.h>
 
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "solver/linear/linear_solver.h"
 #include "study/trade/trade.h"
 

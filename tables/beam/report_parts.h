@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What several reports have: a method, and a trial of one. */
-#ifndef BR_TABLES_REPORT_PARTS_H
-#define BR_TABLES_REPORT_PARTS_H
+/* What several reports of the beam have: a method, and a trial of one. */
+#ifndef BR_TABLES_BEAM_REPORT_PARTS_H
+#define BR_TABLES_BEAM_REPORT_PARTS_H
 
 #include "study/scene/method_fields.h"
 #include "study/trade/trial.h"
-#include "tables/reports.h"
+#include "tables/beam/reports.h"
+#include "tables/report_cells.h"
 
 /* All fields of a method (br_method_fields), for programs: as facts, each a member of the object
  * `key`, and as cells of a row. A field that the method does not use is nothing. Facts also have
@@ -22,12 +23,6 @@ void br_put_trial(struct br_document *d, const struct br_scene *scene,
 enum { BR_TRIAL_TEXT = 160 };
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *trial,
                           char text[BR_TRIAL_TEXT]);
-
-/* An estimate, with its interval in two more columns. shown: for people; NULL: the number. */
-void br_put_estimate(struct br_document *d, const struct br_column *column,
-                     const struct br_estimate *estimate, const char *shown);
-#define BR_PUT_ESTIMATE(d, e, shown, ...) \
-    br_put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
 
 /* ---- of a study (report_study.c, report_answers.c, report_fits.c) ---- */
 
@@ -59,11 +54,5 @@ void br_put_study_notes(struct br_document *d, const struct br_report *report);
 void br_put_study_facts(struct br_document *d, const struct br_report *report);
 /* Puts nothing where no errors are printed in the paper. */
 void br_put_triangles(struct br_document *d, const struct br_report *report);
-
-/* The message of a failure; nothing where there is none. */
-static inline struct br_value br_failure_text(const struct br_error *failure)
-{
-    return br_text(failure->status ? failure->message : NULL);
-}
 
 #endif

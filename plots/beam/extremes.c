@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "solver/scene.h"
 #include "study/extremes/extremes.h"
 

@@ -6,7 +6,7 @@
 #include "solver/scene.h"
 #include "study/fit/report.h"
 #include "study/scene/method_fields.h"
-#include "tables/report_parts.h"
+#include "tables/beam/report_parts.h"
 
 bool br_part_is_shown(const struct br_report *r, enum br_part part)
 {
@@ -165,10 +165,10 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
                    .heading = "observed [95 %]");
-            BR_PUT(d,
-                   br_text(
-                       br_range_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
-                   .heading = "theory");
+            BR_PUT(
+                d,
+                br_text(br_range_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
+                .heading = "theory");
             BR_PUT(d, br_text(seen->remark), .heading = "verdict", .flags = BR_WRAP);
             BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "measured from",
                    .flags = BR_WRAP);

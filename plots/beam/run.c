@@ -2,7 +2,7 @@
 /* A recorded march: the tip over time. */
 #include <stddef.h>
 
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "solver/scene.h"
 #include "study/run/history.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene format for people. It walks br_scene_keys and the registry of norms, and so cannot go
  * stale. */
-#ifndef BR_TABLES_SCENE_FORMAT_H
-#define BR_TABLES_SCENE_FORMAT_H
+#ifndef BR_TABLES_BEAM_SCENE_FORMAT_H
+#define BR_TABLES_BEAM_SCENE_FORMAT_H
 
 #include <stdio.h>
 

@@ -5,7 +5,7 @@
 
 #include "solver/scene.h"
 #include "study/extremes/extremes.h"
-#include "tables/report_parts.h"
+#include "tables/beam/report_parts.h"
 
 /* ---- floors, and the round-off that steps gather ---- */
 

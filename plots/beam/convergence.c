@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/words.h"
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "solver/scene.h"
 #include "study/fit/report.h"
 

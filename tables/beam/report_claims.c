@@ -4,7 +4,7 @@
 
 #include "study/fit/fit.h"
 #include "study/paper/paper.h"
-#include "tables/reports.h"
+#include "tables/beam/reports.h"
 
 /* "0.7990 +- 0.0020 s"; where the error is less than what four digits show: "1.009" */
 static void show_value(struct br_document *d, double value, double error, const char *unit)
