@@ -1,298 +1,66 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The library's functions for studies, verdicts and orders of numbers. */
+/* The library's functions: orders of numbers, and verdicts on them. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 
-#include "study/base/each.h"
-#include "study/foresee/foreseen.h"
-#include "study/grid/sweep.h"
 #include "study/library/library.h"
 #include "study/orders/request.h"
-#include "study/verify/check.h"
 
-static_assert((int)BEAMRATE_TOTAL == BR_PART_TOTAL && (int)BEAMRATE_OF_AXIAL == BR_PART_AXIAL &&
-                  (int)BEAMRATE_OF_BENDING == BR_PART_BENDING,
-              "");
 static_assert((int)BEAMRATE_SPACE == BR_AXIS_SPACE && (int)BEAMRATE_TIME == BR_AXIS_TIME, "");
 static_assert((int)BEAMRATE_PASS == BR_PASS && (int)BEAMRATE_FAIL == BR_FAIL &&
                   (int)BEAMRATE_INCONCLUSIVE == BR_INCONCLUSIVE,
               "");
-
-static enum br_status check_threads(int threads, struct br_error *err)
-{
-    return threads >= 0 && threads <= BR_MOST_THREADS
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "threads: found %d, expected 0 to %d", threads,
-                         BR_MOST_THREADS);
-}
 
 static bool is_axis(enum beamrate_axis axis)
 {
     return axis == BEAMRATE_SPACE || axis == BEAMRATE_TIME;
 }
 
-/* ---- studies ---- */
+/* The body of a call that makes a handle (out) from zeros. `fill` may use *handle and call. If it
+ * fails, the call fails. */
+#define MAKE_HANDLE(handle, handle_kind, release, fill)                                           \
+    struct br_call call;                                                                          \
+    br_call_begin(&call);                                                                         \
+    if (!(handle))                                                                                \
+        return br_call_end(                                                                       \
+            &call, br_fail(&call.err, BR_BAD_INPUT, "found NULL, expected a place for a handle"), \
+            err);                                                                                 \
+    *(handle) = br_allocate(1, sizeof **(handle));                                                \
+    if (*(handle))                                                                                \
+        (*(handle))->kind = handle_kind;                                                          \
+    const enum br_status made = *(handle) ? (fill) : br_no_memory(&call.err, "a handle");         \
+    if (made) {                                                                                   \
+        release(*(handle));                                                                       \
+        *(handle) = NULL;                                                                         \
+    }                                                                                             \
+    return br_call_end(&call, made, err)
 
-struct beamrate_study {
-    enum br_handle kind;
-    struct br_study study;
-    struct br_fits fits[BR_PARTS];
-    size_t *n, *steps; /* owned */
-    struct beamrate_reference reference;
-};
+static const struct beamrate_estimate nothing = {NAN, NAN, NAN};
 
-/* A copy of a list; *to (out) is owned by the caller, even after a failure. */
-static enum br_status copy_list(const char *name, const size_t *list, size_t count, size_t **to,
-                                struct br_error *err)
+static struct beamrate_estimate estimate_of(struct br_estimate e)
 {
-    *to = NULL;
-    if (count && !list)
-        return br_fail(err, BR_BAD_INPUT, "%s: found NULL, expected a list", name);
-    if (count < 1 || list[0] < 1)
-        return br_fail(err, BR_BAD_INPUT, "%s: found %s, expected numbers of at least 1", name,
-                       count < 1 ? "an empty list" : "0");
-    for (size_t i = 1; i < count; i++)
-        if (!(list[i] > list[i - 1]))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: found %zu behind %zu, expected ascending numbers", name, list[i],
-                           list[i - 1]);
-    *to = br_allocate(count, sizeof **to);
-    if (!*to)
-        return br_no_memory(err, "the grid");
-    memcpy(*to, list, count * sizeof **to);
-    return BR_OK;
+    return (struct beamrate_estimate){e.value, e.low, e.high};
 }
 
-static enum br_status choose_reference(const struct beamrate_study_request *q, struct br_study *s,
-                                       struct br_error *err)
+static struct beamrate_fit fit_of(const struct br_joint_fit *fit)
 {
-    s->judge = q->reference ? br_judge_find(q->reference) : br_judge_best(s->scene);
-    if (!s->judge || !s->judge->create)
-        return br_fail(err, BR_BAD_INPUT, "reference: found '%.200s', expected exact, mms or fine",
-                       q->reference);
-    const bool given = q->reference_n || q->reference_steps;
-    if (s->judge->nests != given)
-        return br_fail(err, BR_BAD_INPUT,
-                       "reference: found %zu elements and %zu steps, expected %s", q->reference_n,
-                       q->reference_steps,
-                       given ? "none: they are for a fine run" : "those of the fine run");
-    s->reference = (struct br_resolution){q->reference_n, q->reference_steps};
-    s->auditor = s->judge->nests ? br_judge_best(s->scene) : NULL;
-    return BR_OK;
-}
-
-static enum br_status prepare_study(struct beamrate_study *s, const struct br_scene *scene,
-                                    const struct beamrate_study_request *q, struct br_error *err)
-{
-    struct br_study *study = &s->study;
-    *study = (struct br_study){.scene = scene,
-                               .norm = q->norm ? br_norm_find(q->norm) : br_norms[0],
-                               .n_count = q->n_count,
-                               .k_count = q->steps_count};
-    if (!study->norm)
-        return br_fail(err, BR_BAD_INPUT, "norm: found '%.200s', expected l2, energy or tip",
-                       q->norm);
-    if (check_threads(q->threads, err) || br_library_method(q->method, &study->method, err) ||
-        copy_list("n", q->n, q->n_count, &s->n, err) ||
-        copy_list("steps", q->steps, q->steps_count, &s->steps, err) ||
-        choose_reference(q, study, err))
-        return err->status;
-    study->reference_method = study->method;
-    study->n = s->n;
-    study->steps = s->steps;
-    return br_fit_together(study, 1, br_memory_available(), err);
-}
-
-static struct beamrate_reference describe_reference(const struct br_study *s)
-{
-    struct beamrate_reference r = {
-        .name = s->judge->name,
-        .n = s->reference.n,
-        .steps = s->reference.steps,
-        .size = s->reference_scale,
-        .tip = {s->reference_tip[BR_AXIAL], s->reference_tip[BR_BENDING]},
+    if (!fit->converged)
+        return (struct beamrate_fit){0,       nothing, nothing, nothing,
+                                     nothing, nothing, NAN,     fit->points};
+    return (struct beamrate_fit){
+        .describes = br_joint_describes(fit),
+        .p = estimate_of(fit->order[BR_AXIS_SPACE]),
+        .c_h = estimate_of(fit->c[BR_AXIS_SPACE]),
+        .q = estimate_of(fit->order[BR_AXIS_TIME]),
+        .c_k = estimate_of(fit->c[BR_AXIS_TIME]),
+        .r = estimate_of(fit->r),
+        .misfit = fit->misfit,
+        .points = fit->points,
     };
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        r.own_error[part] =
-            s->judge->nests ? s->reference_error[part]
-                            : br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
-    return r;
 }
 
-static enum br_status march_and_fit(struct beamrate_study *s, const struct beamrate_scene *scene,
-                                    const struct beamrate_study_request *q, struct br_call *call)
-{
-    struct br_library_watch watch;
-    struct br_error *err = &call->err;
-    enum br_status status = br_call_take_scene(call, scene);
-    if (!status && !q)
-        status = br_fail(err, BR_BAD_INPUT, "request: found NULL, expected a struct");
-    if (!status)
-        status = prepare_study(s, &call->scene, q, err);
-    if (status)
-        return status;
-    br_library_watch_begin(&watch, q->observer);
-    status = br_study_run(&s->study, 1, q->threads, &watch.ours, err);
-    br_library_watch_end(&watch);
-    for (enum br_part part = 0; part < BR_PARTS && !status; part++)
-        status = br_fit(&s->study, part, &s->fits[part], err);
-    if (!status)
-        s->reference = describe_reference(&s->study);
-    return status;
-}
-
-enum beamrate_status beamrate_study_run(struct beamrate_study **study,
-                                        const struct beamrate_scene *scene,
-                                        const struct beamrate_study_request *request,
-                                        struct beamrate_error *err)
-{
-    BR_MAKE_HANDLE(study, BR_HANDLE_STUDY, beamrate_study_free,
-                   march_and_fit(*study, scene, request, &call));
-}
-
-void beamrate_study_free(struct beamrate_study *study)
-{
-    if (!br_handle_is(study, BR_HANDLE_STUDY))
-        return;
-    br_study_clear(&study->study);
-    free(study->n);
-    free(study->steps);
-    free(study);
-}
-
-static bool is_part_of(const struct beamrate_study *study, enum beamrate_part part)
-{
-    return br_handle_is(study, BR_HANDLE_STUDY) &&
-           (part == BEAMRATE_TOTAL || part == BEAMRATE_OF_AXIAL || part == BEAMRATE_OF_BENDING);
-}
-
-enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
-                                         struct beamrate_cell *cell)
-{
-    if (cell)
-        *cell = (struct beamrate_cell){
-            .error = {NAN, NAN, NAN}, .flag = {"", "", ""}, .tip = {NAN, NAN}, .failure = ""};
-    if (!cell || !br_handle_is(study, BR_HANDLE_STUDY) || i >= study->study.n_count ||
-        j >= study->study.k_count)
-        return BEAMRATE_BAD_INPUT;
-    const struct br_cell *c = br_study_cell(&study->study, i, j);
-    *cell = (struct beamrate_cell){
-        .n = c->at.n,
-        .steps = c->at.steps,
-        .tip = {c->tip[BR_AXIAL], c->tip[BR_BENDING]},
-        .seconds = c->seconds,
-        .failure = c->failure.status ? c->failure.message : "",
-    };
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        cell->error[part] = c->error[part];
-        cell->flag[part] = br_flag_name(c->flag[part]);
-    }
-    return BEAMRATE_OK;
-}
-
-enum beamrate_status beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
-                                        struct beamrate_fit *fit)
-{
-    const struct br_joint_fit none = {0};
-    const bool good = fit && is_part_of(study, part);
-    if (fit)
-        *fit = br_library_fit(good ? &study->fits[part].joint : &none);
-    return good ? BEAMRATE_OK : BEAMRATE_BAD_INPUT;
-}
-
-enum beamrate_status beamrate_study_reference(const struct beamrate_study *study,
-                                              struct beamrate_reference *reference)
-{
-    const bool good = reference && br_handle_is(study, BR_HANDLE_STUDY);
-    if (reference)
-        *reference = good ? study->reference
-                          : (struct beamrate_reference){.name = "", .own_error = {NAN, NAN, NAN}};
-    return good ? BEAMRATE_OK : BEAMRATE_BAD_INPUT;
-}
-
-/* ---- verdicts ---- */
-
-struct beamrate_check {
-    enum br_handle kind;
-    struct br_check check;
-    char *measure; /* of numbers: the name of their column; owned */
-};
-
-static enum br_status check_scene(struct br_check *check, const struct beamrate_scene *scene,
-                                  int threads, const struct beamrate_observer *observer,
-                                  struct br_call *call)
-{
-    struct br_library_watch watch;
-    struct br_error *err = &call->err;
-    const struct br_scene *own = &call->scene;
-    if (br_call_take_scene(call, scene) || check_threads(threads, err))
-        return err->status;
-    *check = (struct br_check){
-        .path = scene->path, .name = own->name, .scene = own, .verify = &scene->verify};
-    br_library_watch_begin(&watch, observer);
-    const enum br_status status = br_check_run(check, 1, threads, &watch.ours, err);
-    br_library_watch_end(&watch);
-    const struct br_error *failure = &check->failure;
-    return status || !failure->status ? status
-                                      : br_fail(err, failure->status, "%s", failure->message);
-}
-
-enum beamrate_status beamrate_check_run(struct beamrate_check **check,
-                                        const struct beamrate_scene *scene, int threads,
-                                        const struct beamrate_observer *observer,
-                                        struct beamrate_error *err)
-{
-    BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
-                   check_scene(&(*check)->check, scene, threads, observer, &call));
-}
-
-void beamrate_check_free(struct beamrate_check *check)
-{
-    if (!br_handle_is(check, BR_HANDLE_CHECK))
-        return;
-    br_check_clear(&check->check);
-    free(check->measure);
-    free(check);
-}
-
-size_t beamrate_check_count(const struct beamrate_check *check)
-{
-    return br_handle_is(check, BR_HANDLE_CHECK) ? check->check.count : 0;
-}
-
-enum beamrate_status beamrate_check_case(const struct beamrate_check *check, size_t i,
-                                         struct beamrate_case *c)
-{
-    if (c)
-        *c = (struct beamrate_case){.study = "",
-                                    .measure = "",
-                                    .part = "",
-                                    .verdict = BEAMRATE_FAIL,
-                                    .reason = "",
-                                    .note = ""};
-    if (!c || i >= beamrate_check_count(check))
-        return BEAMRATE_BAD_INPUT;
-    const struct br_case *from = &check->check.cases[i];
-    *c = (struct beamrate_case){
-        .study = br_verify_names[from->kind],
-        .measure = from->measure,
-        .part = from->part,
-        .expected = from->expected.order,
-        .tolerance = from->expected.tolerance,
-        .order = br_library_estimate(from->order),
-        .constant = from->constant,
-        .margin = from->margin,
-        .points = from->points,
-        .used = from->used,
-        .verdict = (enum beamrate_verdict)from->verdict,
-        .reason = from->reason,
-        .note = from->note,
-    };
-    return BEAMRATE_OK;
-}
-
-/* ---- orders of any numbers ---- */
+/* ---- orders ---- */
 
 static const char name_of_numbers[] = "numbers"; /* in messages, instead of a file's path */
 
@@ -334,8 +102,8 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           const struct beamrate_numbers *numbers,
                                           struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(orders, BR_HANDLE_ORDERS, beamrate_orders_free,
-                   find_orders(*orders, numbers, &call.err));
+    MAKE_HANDLE(orders, BR_HANDLE_ORDERS, beamrate_orders_free,
+                find_orders(*orders, numbers, &call.err));
 }
 
 static enum br_status read_orders(struct beamrate_orders *o, const struct beamrate_table *table,
@@ -370,8 +138,8 @@ enum beamrate_status beamrate_orders_read(struct beamrate_orders **orders,
                                           const struct beamrate_table *table,
                                           struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(orders, BR_HANDLE_ORDERS, beamrate_orders_free,
-                   read_orders(*orders, table, &call.err));
+    MAKE_HANDLE(orders, BR_HANDLE_ORDERS, beamrate_orders_free,
+                read_orders(*orders, table, &call.err));
 }
 
 void beamrate_orders_free(struct beamrate_orders *orders)
@@ -383,8 +151,6 @@ void beamrate_orders_free(struct beamrate_orders *orders)
     br_numbers_clear(&orders->numbers);
     free(orders);
 }
-
-static const struct beamrate_estimate nothing = {NAN, NAN, NAN};
 
 /* The orders of a column, and its finest line along an axis (out); NULL: there are none. */
 static const struct br_quantity_orders *find_column(const struct beamrate_orders *orders,
@@ -413,7 +179,7 @@ int beamrate_orders_answer(const struct beamrate_orders *orders, size_t quantity
     answer->quantity = q->name;
     answer->values = q->is_value;
     answer->refined = line || of->flag;
-    answer->order = br_library_estimate(found->order);
+    answer->order = estimate_of(found->order);
     answer->open = found->open ? found->open : "";
     return 1;
 }
@@ -432,7 +198,7 @@ int beamrate_orders_point(const struct beamrate_orders *orders, size_t quantity,
     *point = (struct beamrate_order_point){.size = p->z,
                                            .error = p->error,
                                            .rate = br_orders_rate(line, i),
-                                           .fit = br_library_estimate(p->fit),
+                                           .fit = estimate_of(p->fit),
                                            .left_out = br_flag_name(p->flag)};
     return 1;
 }
@@ -447,12 +213,12 @@ int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axi
     *order = (struct beamrate_order){.order = nothing, .constant = NAN, .limit = nothing};
     if (!line)
         return 0;
-    order->order = br_library_estimate(line->observed.order);
+    order->order = estimate_of(line->observed.order);
     order->constant = line->observed.constant;
     order->points = line->observed.points;
     order->used = line->observed.used;
     if (orders->numbers.quantity->is_value)
-        order->limit = br_library_estimate(line->limits.limit.value);
+        order->limit = estimate_of(line->limits.limit.value);
     return 1;
 }
 
@@ -462,8 +228,56 @@ enum beamrate_status beamrate_orders_fit(const struct beamrate_orders *orders,
     const struct br_joint_fit none = {0};
     const bool good = fit && br_handle_is(orders, BR_HANDLE_ORDERS);
     if (fit)
-        *fit = br_library_fit(good ? &orders->orders.of[0].joint : &none);
+        *fit = fit_of(good ? &orders->orders.of[0].joint : &none);
     return good ? BEAMRATE_OK : BEAMRATE_BAD_INPUT;
+}
+
+/* ---- verdicts ---- */
+
+struct beamrate_check {
+    enum br_handle kind;
+    struct br_check check;
+    char *measure; /* the name of their column; owned */
+};
+
+void beamrate_check_free(struct beamrate_check *check)
+{
+    if (!br_handle_is(check, BR_HANDLE_CHECK))
+        return;
+    br_check_clear(&check->check);
+    free(check->measure);
+    free(check);
+}
+
+size_t beamrate_check_count(const struct beamrate_check *check)
+{
+    return br_handle_is(check, BR_HANDLE_CHECK) ? check->check.count : 0;
+}
+
+enum beamrate_status beamrate_check_case(const struct beamrate_check *check, size_t i,
+                                         struct beamrate_case *c)
+{
+    if (c)
+        *c = (struct beamrate_case){
+            .study = "", .measure = "", .verdict = BEAMRATE_FAIL, .reason = "", .note = ""};
+    if (!c || i >= beamrate_check_count(check))
+        return BEAMRATE_BAD_INPUT;
+    const struct br_case *from = &check->check.cases[i];
+    *c = (struct beamrate_case){
+        .study = br_verify_names[from->kind],
+        .measure = from->measure,
+        .expected = from->expected.order,
+        .tolerance = from->expected.tolerance,
+        .order = estimate_of(from->order),
+        .constant = from->constant,
+        .margin = from->margin,
+        .points = from->points,
+        .used = from->used,
+        .verdict = (enum beamrate_verdict)from->verdict,
+        .reason = from->reason,
+        .note = from->note,
+    };
+    return BEAMRATE_OK;
 }
 
 static enum br_status copy_expectations(const struct beamrate_expectation *from, size_t count,
@@ -502,7 +316,7 @@ static enum br_status check_orders(struct beamrate_check *made,
 {
     struct br_check *check = &made->check;
     struct br_order_expectation *e;
-    if (br_handle_check(orders, BR_HANDLE_ORDERS, "orders", err))
+    if (br_handle_check(orders, err))
         return err->status;
     if (quantity >= orders->orders.count)
         return br_fail(err, BR_BAD_INPUT, "quantity: found %zu, expected less than %zu", quantity,
@@ -538,8 +352,7 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_expectation *expectation,
                                            size_t count, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
-                   check_orders(*check, orders, 0, expectation, count, &call.err));
+    return beamrate_orders_check_quantity(check, orders, 0, expectation, count, err);
 }
 
 enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **check,
@@ -548,6 +361,6 @@ enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **chec
                                                     const struct beamrate_expectation *expectation,
                                                     size_t count, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
-                   check_orders(*check, orders, quantity, expectation, count, &call.err));
+    MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
+                check_orders(*check, orders, quantity, expectation, count, &call.err));
 }
