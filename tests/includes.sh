@@ -36,7 +36,7 @@ orders: base fit kept reading scene verify
 trade: base fit foresee grid kept scene
 extremes: base run scene
 paper: base grid run scene
-library: base fit foresee grid orders scene verify
+library: orders
 '
 
 # The list as docs/architecture.md has it.

@@ -197,8 +197,17 @@ assert os.waitpid(child, 0)[1] == 0
 END
     timeout 120 "$python" refused.py 2>noise && cat noise && [ ! -s noise ]
 }
+# The page's loop over the program, by any Python.
+loop() {
+    awk '/^```python/ { inside = 1; text = ""; next } /^```/ { if (inside && text ~ /subprocess/) printf "%s", text
+        inside = 0 } inside { text = text $0 "\n" }' "$source/docs/library.md" >loop.py
+    PATH=$prefix/bin:$PATH "$python" loop.py >loop.txt && cat loop.txt &&
+        [ "$(wc -l <loop.txt)" -eq 13 ] && ! grep -E 'None|nan' loop.txt &&
+        tail -n 1 loop.txt | awk '{ exit !($2 < 2 && 2 < $3 && $3 - $2 < 0.5) }'
+}
 export PYTHONPATH=$prefix/share/beamrate/python${PYTHONPATH:+:$PYTHONPATH}
 python=${PYTHON:-python3}
+check "the loop of the page" loop
 if "$python" -c 'import numpy' 2>/dev/null; then
     check "Python's structs are the header's" layouts
     check "the example in Python runs" eval '"$python" "$source/docs/library/example.py" >py.txt'

@@ -57,8 +57,10 @@ TEST(orders_of_numbers)
     assert_int_equal(c.verdict, BEAMRATE_PASS);
     assert_string_equal(c.study, "space");
     assert_string_equal(c.measure, "error");
+    assert_true(c.expected == 2 && c.tolerance == 0.1 && c.margin >= 0 && !*c.reason);
     beamrate_check_case(check, 1, &c);
     assert_int_equal(c.verdict, BEAMRATE_FAIL);
+    assert_true(c.margin < 0 && *c.reason);
     assert_string_equal(c.study, "time");
     beamrate_check_free(check);
     double coarse[4] = {h[0], h[4], h[8], h[12]},
