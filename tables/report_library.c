@@ -2,8 +2,8 @@
 /* The report of the library's orders; it stands here since study/ knows no reports. */
 #include <math.h>
 
-#include "study/base/text.h"
-#include "study/library/library.h"
+#include "base/text.h"
+#include "orders/library/library.h"
 #include "tables/reports.h"
 
 static enum br_status write_report(const struct br_orders *orders, char **text,

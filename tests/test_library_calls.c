@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/library/beamrate.h"
+#include "orders/library/beamrate.h"
 #include "support.h"
 
 static struct beamrate_error failure;

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "faults.h"
-#include "study/library/beamrate.h"
+#include "orders/library/beamrate.h"
 #include "support.h"
 
 static struct beamrate_error failure;
