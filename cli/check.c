@@ -81,8 +81,8 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
         return err->status;
     const bool foreign = br_is_study_file(text);
     const bool failed = foreign ? read_study(r, item, text, err)
-                                : br_verify_read_set(item->path, text, r->session->set,
-                                                     &item->scene, &item->verify, err) ||
+                                : br_verify_read(item->path, text, r->session->set, &item->scene,
+                                                 &item->verify, err) ||
                                       choose_method(r, item, err);
     free(text);
     if (failed || foreign)
