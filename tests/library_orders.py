@@ -104,6 +104,7 @@ def check_arrays():
     assumed = br.orders(error, dofs=N ** 2)
     assert "2-D assumed; --dimension 3 gives 2.25" in repr(assumed), assumed
     refused("state the dimension of the mesh", lambda: assumed.assert_order(1.5))
+    assert "dimension" in assumed.order.open and repr(assumed.order).endswith(" (not settled)"), assumed.order
     frame = {"edge": 1 / N, "e": error, "more": 2 * error}
     assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "more"]
     close(br.orders(frame, h="edge", errors="e")["e"].order.value, 1.5)

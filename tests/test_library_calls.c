@@ -200,6 +200,7 @@ TEST(dimensions_of_a_table)
         beamrate_orders_answer(orders, 0, BEAMRATE_SPACE, &answer);
         CLOSE(answer.order.value, 2 * (dimension ? dimension : 2) / 3., 1e-6);
         assert_int_equal(!!strstr(json, "assumed"), !dimension);
+        assert_int_equal(!!strstr(answer.open, "dimension"), !dimension);
         if (dimension)
             WORKS(beamrate_orders_check(&check, orders, &expected, 1, &failure));
         else

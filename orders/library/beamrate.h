@@ -133,7 +133,8 @@ struct beamrate_answer {
     int refined;          /* 1: there is a line along the axis; else 0, and order is NaN */
     struct beamrate_estimate order; /* by the joint fit if it describes the errors, else by the line
                                        at the finest size of the other axis */
-    const char *open; /* why the order is not settled, and what settles it; "": it is */
+    const char *open; /* why the order is not settled, as where the dimension of the mesh is
+                         assumed, and what settles it; "": it is */
 };
 
 /* The answer (out) for column `quantity`, from 0 on, along an axis. Returns 1, or 0 with NaN and ""

@@ -48,7 +48,8 @@ class Number(float):
     value = property(float)
 
     def __repr__(self):
-        return f"{self:.6g}" + ("" if math.isnan(self.low) else f" [{self.low:.6g}, {self.high:.6g}]")
+        interval = "" if math.isnan(self.low) else f" [{self.low:.6g}, {self.high:.6g}]"
+        return f"{self:.6g}{interval}{' (not settled)' if self.open else ''}"
 
 
 # ---- the structs of beamrate.h: each member in its order, TYPE:NAME, or TYPE:NAME:COUNT ----

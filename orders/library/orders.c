@@ -180,7 +180,8 @@ int beamrate_orders_answer(const struct beamrate_orders *orders, size_t quantity
     answer->values = q->is_value;
     answer->refined = line || of->flag;
     answer->order = estimate_of(found->order);
-    answer->open = found->open ? found->open : "";
+    const char *unsettled = answer->refined ? orders->numbers.unsettled : NULL;
+    answer->open = found->open ? found->open : unsettled ? unsettled : "";
     return 1;
 }
 
