@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "cli/beam/session.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/verdicts.h"

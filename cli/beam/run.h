@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The march that the options of `run` ask for (run_plan.c). */
-#ifndef BR_CLI_RUN_H
-#define BR_CLI_RUN_H
+#ifndef BR_CLI_BEAM_RUN_H
+#define BR_CLI_BEAM_RUN_H
 
-#include "cli/session.h"
+#include "cli/beam/session.h"
 #include "study/run/run.h"
 
 struct br_run_plan {

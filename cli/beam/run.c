@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/run.h"
+#include "cli/beam/run.h"
 #include "base/clock.h"
 #include "cli/command.h"
 #include "cli/progress.h"

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The experiments of `beamrate extremes`: a registry. An experiment computes by a module of study/,
  * reports its results by one of tables/, and draws them by plots/. */
-#ifndef BR_CLI_EXTREMES_EXPERIMENT_H
-#define BR_CLI_EXTREMES_EXPERIMENT_H
+#ifndef BR_CLI_BEAM_EXTREMES_EXPERIMENT_H
+#define BR_CLI_BEAM_EXTREMES_EXPERIMENT_H
 
-#include "cli/session.h"
+#include "cli/beam/session.h"
 #include "study/extremes/extremes.h"
 
 /* Where the results go. All borrowed. */
@@ -33,7 +33,7 @@ struct br_extremes_experiment {
                           struct br_error *err);
 };
 
-/* In the order in which they run; ends with zeros (cli/extremes_experiments.c). */
+/* In the order in which they run; ends with zeros (cli/beam/extremes_experiments.c). */
 extern const struct br_extremes_experiment br_extremes_experiments[];
 
 #endif

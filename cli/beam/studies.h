@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies from the options to finished reports: shared by `study` and `tables`. */
-#ifndef BR_CLI_STUDIES_H
-#define BR_CLI_STUDIES_H
+#ifndef BR_CLI_BEAM_STUDIES_H
+#define BR_CLI_BEAM_STUDIES_H
 
-#include "cli/session.h"
-#include "cli/study_request.h"
+#include "cli/beam/session.h"
+#include "cli/beam/study_request.h"
 #include "reference/printed.h"
 #include "study/fit/apart.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/studies.h"
+#include "cli/beam/studies.h"
 
 #include <stdio.h>
 

@@ -3,9 +3,10 @@
 #include <stdio.h>
 
 #include "base/words.h"
+#include "cli/beam/session.h"
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/session.h"
+#include "cli/provenance.h"
 #include "plots/pictures.h"
 #include "study/paper/paper.h"
 #include "tables/reports.h"
@@ -32,7 +33,8 @@ static void put_caption(struct br_document *d, const struct br_paper_figure *f,
 
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(NULL, r->session->threads);
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, r->session->threads);
     struct br_finding finding[BR_MOST_CLAIMS];
     if (br_session_report(r->session, 1, err))
         return err->status;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate study SCENE: a grid of cells against one reference; and beamrate tables: the paper's
  * Tables 1 and 2 on their printed grids, two studies at once. */
+#include "cli/beam/studies.h"
 #include "cli/command.h"
-#include "cli/studies.h"
 #include "plots/pictures.h"
 #include "study/foresee/warnings.h"
 #include "tables/reports.h"

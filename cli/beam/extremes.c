@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "base/words.h"
+#include "cli/beam/extremes_experiment.h"
+#include "cli/beam/session.h"
+#include "cli/beam/study_request.h"
 #include "cli/command.h"
-#include "cli/extremes_experiment.h"
 #include "cli/progress.h"
-#include "cli/session.h"
-#include "cli/study_request.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 

@@ -14,7 +14,7 @@
  *   w words that may be chosen, or one     v the pattern of a value
  *   u what a word without a title is       q "name:title" as a string of a shell
  *   x the version        z the bundled scenes */
-#include "cli/command.h"
+#include "cli/beam/beam.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -120,21 +120,6 @@ static void emit(FILE *out, const struct language *l, const char *pattern, const
 
 /* ---- the walk ---- */
 
-size_t br_registries(struct br_registry list[BR_REGISTRIES])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        const struct br_method_field *f = &br_method_fields[i];
-        if (f->words && (f->words->title || f->words->available))
-            list[count++] = (struct br_registry){f->name, f->help, f->words};
-    }
-    list[count++] =
-        (struct br_registry){"reference", "what errors are measured against", &br_judge_words};
-    list[count++] = (struct br_registry){"norm", "norms of the error", &br_norm_words};
-    list[count++] = (struct br_registry){"format", "formats of the results", &br_format_words};
-    return count;
-}
-
 /* words (out): the possible values, separated by blanks. A reference that needs numbers ends with
  * its colon. */
 static enum value value_of(const struct br_option *row, char words[MOST_WORDS])
@@ -154,19 +139,10 @@ static enum value value_of(const struct br_option *row, char words[MOST_WORDS])
     return strcmp(row->argument, "LIST") == 0 ? SOME_WORDS : ONE_WORD;
 }
 
-const char *br_option_help(const struct br_option *row, char *text, size_t size)
-{
-    char value[BR_METHOD_VALUE];
-    const char *standard = br_option_default(row, value);
-    snprintf(text, size, "%s%s%s%s", row->help, standard ? " (default " : "",
-             standard ? standard : "", standard ? ")" : "");
-    return text;
-}
-
 static void write_option(FILE *out, const struct language *l, const struct br_option *row,
                          struct fields f)
 {
-    char words[MOST_WORDS], help[512], standard[BR_METHOD_VALUE];
+    char words[MOST_WORDS], help[512], standard[BR_OPTION_TEXT];
     const char letter[] = {row->letter, '\0'};
     f.of['n'] = row->name;
     f.of['l'] = letter;
@@ -244,7 +220,7 @@ static void write_methods(FILE *out, const struct language *l, struct fields f)
 {
     struct br_registry list[BR_REGISTRIES];
     struct br_option row[BR_OPTIONS];
-    const size_t count = br_registries(list), options = br_options_of(br_commands[0], row);
+    const size_t count = br_registries(list), options = br_options_of(br_program.commands[0], row);
     emit(out, l, l->methods, &f);
     for (size_t i = 0; i < options; i++)
         if (row[i].id >= BR_OPT_METHOD)
@@ -326,7 +302,7 @@ static void write_all(FILE *out, const struct language *l, const char *scenes)
     char line[256], quoted[300];
     emit(out, l, l->head, &f);
     for (int body = 0; body < 2; body++) {
-        for (const struct br_command *const *c = br_commands; *c; c++) {
+        for (const struct br_command *const *c = br_program.commands; *c; c++) {
             snprintf(line, sizeof line, "%s:%s", (*c)->name, (*c)->title);
             f.of['c'] = (*c)->name;
             f.of['t'] = (*c)->title;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/run.h"
+#include "cli/beam/run.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "cli/study_request.h"
+#include "cli/beam/study_request.h"
+#include "study/scene/method_fields.h"
 
 /* ---- times ---- */
 

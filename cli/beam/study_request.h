@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options shared by the commands that compare marches with a solution. */
-#ifndef BR_CLI_STUDY_REQUEST_H
-#define BR_CLI_STUDY_REQUEST_H
+#ifndef BR_CLI_BEAM_STUDY_REQUEST_H
+#define BR_CLI_BEAM_STUDY_REQUEST_H
 
 #include "cli/option.h"
 #include "study/grid/study.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/study_request.h"
+#include "cli/beam/study_request.h"
+#include "cli/beam/beam.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The experiments of `extremes`, a function and a row each: study/extremes/ computes, tables/
  * reports and plots/ draws. */
-#include "cli/extremes_experiment.h"
+#include "cli/beam/extremes_experiment.h"
 
 #include "plots/pictures.h"
 #include "tables/reports.h"

@@ -6,10 +6,10 @@
 
 #include "base/quote.h"
 #include "base/words.h"
+#include "cli/beam/session.h"
+#include "cli/beam/study_request.h"
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/session.h"
-#include "cli/study_request.h"
 #include "plots/pictures.h"
 #include "study/scene/file.h"
 #include "study/scene/units.h"
