@@ -52,14 +52,15 @@ symbols() {
 }
 check "what is exported is what is documented" symbols
 
-# One version in all places, and its first number in the name that programs ask for.
+# One version in all places, and the number of the ABI in the name that programs ask for.
 versions() {
     local version=${1%% *}
     echo "program $version, pkg-config $(package --modversion)"
     [ "$(package --modversion)" = "$version" ] &&
         grep -q "define BEAMRATE_VERSION \"$version\"" "$prefix/include/beamrate/version.h" &&
-        [ -e "$libraries/libbeamrate.so.$version" ] &&
-        readelf -d "$libraries/libbeamrate.so" | grep -F "[libbeamrate.so.${version%%.*}]"
+        [ -e "$libraries/libbeamrate.so.1.${version#*.}" ] &&
+        readelf -d "$libraries/libbeamrate.so" | grep -F "[libbeamrate.so.1]" &&
+        grep -F "libbeamrate.so.1*" "$source/debian/libbeamrate1.install" && grep -F "libbeamrate.so.1." "$header"
 }
 said=$("$BEAMRATE" --version)
 check "one version" versions "${said#beamrate }"

@@ -90,8 +90,8 @@ def _load():
     here = Path(__file__).resolve()
     found = [*here.parent.glob("libbeamrate.so")]
     for prefix in list(here.parents)[3:4]:  # of PREFIX/share/beamrate/python
-        found += [*prefix.glob("lib*/libbeamrate.so.0"), *prefix.glob("lib/*/libbeamrate.so.0")]
-    return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.0"])[0]))
+        found += [*prefix.glob("lib*/libbeamrate.so.1"), *prefix.glob("lib/*/libbeamrate.so.1")]
+    return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.1"])[0]))
 
 
 _lib = _load()
