@@ -46,7 +46,7 @@ static enum br_status read(void *self, const char *path, const char *text, struc
     struct one *one = &s->one[s->count];
     struct br_scene_check *c = &s->check[s->count++];
     *c = (struct br_scene_check){.scene = &one->scene, .verify = &one->verify, .check = check};
-    if (br_verify_read_set(path, text, s->session->set, &one->scene, &one->verify, err) ||
+    if (br_verify_read(path, text, s->session->set, &one->scene, &one->verify, err) ||
         choose_method(s, path, one, err))
         return err->status;
     return br_scene_check_begin(c, path, err);
