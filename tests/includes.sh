@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Who includes whom: a folder includes itself and folders below it, nothing includes tests/, and no
 # file includes itself through others. base/ knows no one; solver/ and orders/ know base/ alone.
-# tables/ and plots/ know nothing of the beam, but for their folders beam/. Rooms of study/ include
-# what `rooms` says and no more, and docs/architecture.md shows this list. No tag br_... is defined
-# twice, in tests/ neither. It first tries small trees with mistakes, which it must find.
+# tables/, plots/ and cli/ know nothing of the beam, but for their folders beam/ and the program that
+# has it. Rooms of study/ include what `rooms` says and no more, and docs/architecture.md shows this
+# list. No tag br_... is defined twice, in tests/ neither. It first tries small trees with mistakes,
+# which it must find.
 # usage: includes.sh ROOT [--draw]    --draw: prints the list for the docs, and does nothing else
 set -u
 
-# A folder: what its files may include, and with a - what of that they may not. Of the folders above a
-# file the deepest one that stands here counts. The exact solution judges the solver, so it takes only the
-# scene and the form of a solution from it (docs/architecture.md).
+# A folder: what its files may include, and with a - what of that they may not. Of the file and the
+# folders above it the deepest one that stands here counts. The exact solution judges the solver, so
+# it takes only the scene and the form of a solution from it (docs/architecture.md).
 rules='
 base: base/
 orders: base/ orders/
@@ -21,7 +22,9 @@ tables: base/ orders/ tables/ -tables/beam/
 plots: base/ orders/ plots/ -plots/beam/
 tables/beam: base/ orders/ solver/ reference/ study/ tables/
 plots/beam: base/ orders/ solver/ reference/ study/ plots/
-cli: base/ orders/ solver/ reference/ study/ tables/ plots/ cli/ build_info.h
+cli: base/ orders/ tables/ plots/ cli/ build_info.h -tables/beam/ -plots/beam/ -cli/beam/
+cli/beam: base/ orders/ solver/ reference/ study/ tables/ plots/ cli/
+cli/main.c: cli/
 reference/exact: solver/box.h base/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
 reference/exact: base/status.h solver/instruction_set.h solver/vectors.h reference/
 '
@@ -77,11 +80,11 @@ function check_rooms(file, target,    from, to) {
     used[from[2], to[2]] = 1
 }
 
-# The deepest folder above the file that has a rule must allow the target.
+# The file, or the deepest folder above it, that has a rule must allow the target.
 function check(file, target,    folder) {
     check_rooms(file, target)
     folder = file
-    while (sub("/[^/]*$", "", folder) && !(folder in allowed))
+    while (!(folder in allowed) && sub("/[^/]*$", "", folder))
         ;
     if (folder in allowed && !allows(folder, target))
         print file " -> " target ": " folder "/ may not include this"
@@ -184,13 +187,17 @@ plant plots/a.c plots/b.h
 plant plots/beam/a.c solver/b.h
 plant cli/a.c plots/a.h
 plant cli/a.c build_info.h
-expect '9 files'
+plant cli/main.c cli/beam/a.h
+plant cli/beam/a.c plots/beam/a.h
+expect '11 files'
 
 for upward in 'base/a.c orders/a.h' 'orders/a.c solver/a.h' 'solver/a.c orders/a.h' 'solver/a.c reference/a.h' 'reference/a.h study/a.h' 'study/x/a.c tables/a.h' \
     'tables/a.c plots/a.h' 'tables/a.c study/a.h' 'tables/a.c solver/a.h' 'tables/a.c tables/beam/a.h' \
     'plots/a.c tables/a.h' 'plots/a.c study/a.h' 'plots/a.c solver/a.h' 'plots/a.c plots/beam/a.h' \
     'tables/beam/a.c plots/a.h' 'tables/beam/a.c plots/beam/a.h' 'plots/beam/a.c tables/a.h' \
     'tables/beam/a.c cli/a.h' 'plots/beam/a.c cli/a.h' 'cli/a.c tests/a.h' \
+    'cli/a.c study/a.h' 'cli/a.c tables/beam/a.h' 'cli/a.c plots/beam/a.h' 'cli/a.c cli/beam/a.h' \
+    'cli/beam/a.c tests/a.h' \
     'solver/a.c ../study/a.h' 'solver/a.c a.h'; do
     folder=${upward%/* *}
     plant "${upward% *}" "${upward#* }"
