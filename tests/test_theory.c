@@ -191,7 +191,8 @@ static void measure(struct br_test_random *r, size_t number, struct tally tally[
     }
     snprintf(name, sizeof name, "%zu", number);
     struct br_check check = {.path = "drawn.yaml", .name = name};
-    MUST(br_check_run(&(struct br_scene_check){&scene, &verify, &check}, 1, 0, NULL, &err));
+    MUST(br_check_run(&(struct br_scene_check){.scene = &scene, .verify = &verify, .check = &check},
+                      1, 0, NULL, &err));
     if (check.failure.status)
         print_message("# %zu: %s\n", number, check.failure.message);
     for (const struct br_case *c = check.cases; c < check.cases + check.count; c++) {
