@@ -283,6 +283,14 @@ TEST(test_steps_apart)
     m.report.apart[BR_AXIS_TIME] = &other;
     see(&m);
     expect(seen, 0.5, "below theory");
+    const struct br_study rough =
+        pairs_of(&m, cell, (double[]){32, 18.65, 11.54, 6.66, 4.08, 2.35}); /* wider than the grid's */
+    make(&m, 1e-3, 2, 10, 1);
+    m.report.apart[BR_AXIS_TIME] = &rough;
+    see(&m);
+    expect(seen, 0.75, "below theory");
+    for (size_t i = 0; i < CELLS; i++)
+        m.cell[i].error[BR_PART_TOTAL] *= 1 + 0.01 * (double)(i % 3 == 1);
     /* but what the grid shows better stays */
     const struct br_study wide = pairs_of(&m, cell, (double[]){32, 15, 9, 4, 2.2, 1});
     m.report.apart[BR_AXIS_TIME] = &wide;
