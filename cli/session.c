@@ -253,7 +253,7 @@ static enum br_status write_file(const struct br_session *s, const struct br_doc
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err)
 {
-    char name[600] = BR_PAGE;
+    char name[600] = "report.html";
     FILE *file;
     const bool page = f == &br_document_html, main = !table || table->flags & BR_MAIN;
     if (!page)
