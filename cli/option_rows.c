@@ -233,17 +233,12 @@ static const struct br_option rows[] = {
          "replaced."},
 
     /* what is kept */
-    {BR_OPT_RESUME, "resume", 0, NULL, "use finished work that is kept in the folder of --out",
-     NULL, BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_ORDERS,
-     .more = "After an interruption, or for a larger grid: finished cells and trials are kept in "
-             "DIR/.kept, and only the others are marched. Work that another version of the program "
-             "or another machine has kept is not used.",
-     OWN({BR_FOR_ORDERS,
-          .more =
-              "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
-              "or in orders-kept without --out. A run is used again if its words, its program and "
-              "the files that its words name are the same. Other files that the program reads or "
-              "starts are not checked: do not give this option if they have changed."})},
+    {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are kept", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_ORDERS,
+     .more = "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
+             "or in orders-kept without --out. A run is used again if its words, its program and "
+             "the files that its words name are the same. Other files that the program reads or "
+             "starts are not checked: do not give this option if they have changed."},
 
     /* another scene */
     {BR_OPT_SET, "set", 0, "KEY=VALUE",

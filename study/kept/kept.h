@@ -11,30 +11,19 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
+#include "solver/status.h"
 #include "study/base/observer.h"
 #include "study/base/sha256.h"
 #include "study/base/statement.h"
 #include "study/base/text.h"
-#include "study/grid/study.h"
 
 struct br_kept {
     char folder[1100]; /* "": nothing is kept */
     bool take;         /* entries that are there; else they are written anew */
-    double slice;      /* s of work between two times of writing, */
-    double
-        most_reference; /* the share of it that the reference may take, which is marched in each */
-    char program[BR_SHA256_TEXT]; /* the sum of the executable; "": entries are of any version */
-    const char *machine;          /* what this one is, borrowed; NULL: entries are of any */
-    atomic_size_t taken;          /* cells, trials */
-    atomic_size_t bad;            /* entries that were damaged, */
-    atomic_size_t lost;           /* or could not be written */
+    atomic_size_t bad; /* entries that were damaged */
 };
 
-/* Entries will be in DIR/.kept, which the first one makes. Fails with BR_IO. */
-enum br_status br_kept_open(struct br_kept *kept, const char *folder, bool take,
-                            const char *machine, struct br_error *err);
-
-/* Begins the text of an entry: program and machine, and what work it is of ("trial"). */
+/* Begins the text of an entry: what work it is of ("run"). */
 void br_kept_begin(const struct br_kept *kept, const char *work, struct br_statement *text);
 
 /* ---- entries: text.h has their numbers ---- */
@@ -43,17 +32,8 @@ void br_kept_begin(const struct br_kept *kept, const char *work, struct br_state
  * or is not to be taken. kept or text NULL: nothing is. */
 bool br_kept_take(struct br_kept *kept, const char *text, br_record_pass *pass, void *self);
 
-/* Writes an entry, but no wrong one. Where that fails (a full disk; see errno), the work may go on,
- * and it is counted. kept NULL: does nothing. */
+/* Writes an entry, but no wrong one. False where that fails (a full disk; see errno). kept NULL:
+ * does nothing. */
 bool br_kept_put(struct br_kept *kept, const char *text, br_record_pass *pass, void *self);
-
-/* ---- studies ---- */
-
-/* The engine of studies whose cells are kept: kept cells are not marched again, and the others are
- * written as soon as their slice is done. Results have the bits of the whole study in one run, if
- * the kept cells are of studies with the same lists of n and k; else they differ by the round-off
- * of the reference, whose meshes and time levels these lists determine. Fails also with BR_IO,
- * where an entry disappears meanwhile. `kept` is borrowed; NULL: the usual engine. */
-struct br_engine br_kept_engine(struct br_kept *kept);
 
 #endif
