@@ -10,8 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/text.h"
 #include "cli/progress.h"
-#include "study/base/text.h"
 
 /* No result can have these names: those begin with no dot. */
 static const char lock_name[] = ".beamrate-lock", hidden_name[] = ".beamrate-new",

@@ -29,7 +29,7 @@
 #include <stdio.h>
 #include <sys/types.h>
 
-#include "solver/status.h"
+#include "base/status.h"
 
 /* Begins with zeros. */
 struct br_output {

@@ -5,6 +5,7 @@
 #ifndef BR_CLI_SESSION_H
 #define BR_CLI_SESSION_H
 
+#include "base/kept.h"
 #include "cli/option.h"
 #include "cli/output.h"
 #include "plots/pictures.h"

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/base/quote.h"
-#include "study/base/sha256.h"
+#include "base/quote.h"
+#include "base/sha256.h"
 
 /* Opens, for each format, the file that its option names. */
 static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,

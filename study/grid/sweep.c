@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "study/base/each.h"
-#include "study/base/text.h"
+#include "base/each.h"
+#include "base/text.h"
 #include "study/grid/lockstep.h"
 
 /* ---- the set-up ---- */
@@ -153,7 +153,7 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
     return status;
 }
 
-static struct br_engine usual = {br_lockstep, NULL};
+static struct br_engine usual = {br_lockstep};
 
 void br_engine_set(struct br_engine engine)
 {

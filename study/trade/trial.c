@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/clock.h"
-#include "study/base/each.h"
+#include "base/clock.h"
+#include "base/each.h"
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/sweep.h"
