@@ -203,13 +203,16 @@ static bool move_new(const struct br_output *o, const char *new, char name[NAME_
     return true;
 }
 
-static bool remove_old(const struct br_output *o, const char *new, const char *old,
+static bool remove_old(struct br_output *o, const char *new, const char *old,
                        char name[NAME_MAX + 1])
 {
-    for (const char *line = old; next_name(&line, name);)
-        if (!has_name(new, name) && is_there(o->parent, name) &&
-            !is_somebodys(o->parent, old, name) && unlinkat(o->parent, name, 0) != 0)
+    for (const char *line = old; next_name(&line, name);) {
+        if (has_name(new, name) || !is_there(o->parent, name) || is_somebodys(o->parent, old, name))
+            continue;
+        if (unlinkat(o->parent, name, 0) != 0)
             return false;
+        o->removed++;
+    }
     return true;
 }
 
@@ -220,7 +223,7 @@ static bool replace_manifest(const struct br_output *o, char name[NAME_MAX + 1])
            sync_folder(o->parent);
 }
 
-static enum br_status finish(const struct br_output *o, const char *new, const char *old,
+static enum br_status finish(struct br_output *o, const char *new, const char *old,
                              struct br_error *err)
 {
     char name[NAME_MAX + 1];

@@ -291,7 +291,10 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
     if (!status && !s->quiet) {
         fputs("Written to ", stdout);
         br_quote(stdout, &br_for_text, s->output.folder);
-        fputs("/\n", stdout);
+        fputc('/', stdout);
+        if (s->output.removed)
+            printf("; removed there: %zu files of an earlier run", s->output.removed);
+        fputc('\n', stdout);
     }
     return status;
 }
