@@ -106,61 +106,9 @@ static struct br_panel *add_panel(const struct br_report *r, int axis, struct br
     return p;
 }
 
-/* "Joint fit (95 %), total: order 2.00 [1.99, 2.01] in h, ..." */
-static void say_fit(const struct br_report *r, enum br_part part, char text[256])
-{
-    const struct br_joint_fit *fit = &r->fits[part].joint;
-    const bool described = fit->converged && br_joint_describes(fit);
-    const char *before = "";
-    br_append(strcpy(text, ""), 256, "Joint fit (95 %%), %s: %s", br_part_names[part],
-              !fit->converged ? "none could be made"
-              : described     ? "order"
-                              : "does not describe these errors");
-    for (int axis = 0; axis < BR_AXES && described; axis++) {
-        char number[64];
-        if (!br_order_determined(&fit->order[axis]))
-            continue;
-        br_append(text, 256, "%s %s in %s", before,
-                  br_order_text(&fit->order[axis], number, sizeof number), br_axis_letters[axis]);
-        before = ",";
-    }
-}
-
 static bool always(const struct br_report *r)
 {
     return r->fitted->n_count > 0 && r->fitted->k_count > 0;
-}
-
-static void fill_h(const struct br_report *r, struct br_figure *f)
-{
-    say_fit(r, BR_PART_TOTAL, f->note[0]);
-    BR_SAY(f->note[1], "A curve is flat where the error of the time step is larger than that of "
-                       "the mesh.");
-    add_panel(r, BR_AXIS_SPACE, f);
-    add_curves(r, BR_AXIS_SPACE, error_of, f);
-}
-
-/* The second panel has the residuals of the fit, since the curves over k may coincide. */
-static void fill_k(const struct br_report *r, struct br_figure *f)
-{
-    const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
-    say_fit(r, BR_PART_TOTAL, f->note[0]);
-    add_panel(r, BR_AXIS_TIME, f);
-    add_curves(r, BR_AXIS_TIME, error_of, f);
-    if (!fit->converged || !br_joint_describes(fit))
-        return;
-    struct br_panel *p = add_panel(r, BR_AXIS_TIME, f);
-    p->log_y = false;
-    BR_SAY(p->y_label, "error / joint fit - 1");
-    add_curves(r, BR_AXIS_TIME, misfit_of, f);
-}
-
-/* ---- the orders ---- */
-
-static bool has_orders(const struct br_report *r)
-{
-    return r->seen[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
-           r->seen[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
 }
 
 /* "total: order in h 2.00 [1.99, 2.01], in k not measurable", and by what where it is not the
@@ -180,6 +128,38 @@ static void say_orders(const struct br_report *r, enum br_part part, char text[2
                   seen ? br_order_text(&o->order, number, sizeof number) : "not measurable",
                   other ? " by " : "", other ? o->by : "");
     }
+}
+
+static void fill_h(const struct br_report *r, struct br_figure *f)
+{
+    say_orders(r, BR_PART_TOTAL, f->note[0]);
+    BR_SAY(f->note[1], "A curve is flat where the error of the time step is larger than that of "
+                       "the mesh.");
+    add_panel(r, BR_AXIS_SPACE, f);
+    add_curves(r, BR_AXIS_SPACE, error_of, f);
+}
+
+/* The second panel has the residuals of the fit, since the curves over k may coincide. */
+static void fill_k(const struct br_report *r, struct br_figure *f)
+{
+    const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
+    say_orders(r, BR_PART_TOTAL, f->note[0]);
+    add_panel(r, BR_AXIS_TIME, f);
+    add_curves(r, BR_AXIS_TIME, error_of, f);
+    if (!fit->converged || !br_joint_describes(fit))
+        return;
+    struct br_panel *p = add_panel(r, BR_AXIS_TIME, f);
+    p->log_y = false;
+    BR_SAY(p->y_label, "error / joint fit - 1");
+    add_curves(r, BR_AXIS_TIME, misfit_of, f);
+}
+
+/* ---- the orders ---- */
+
+static bool has_orders(const struct br_report *r)
+{
+    return r->seen[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
+           r->seen[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
 }
 
 /* The errors, the fitted line, and its band. */

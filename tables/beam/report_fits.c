@@ -9,9 +9,8 @@
 
 /* ---- fits ---- */
 
-/* ---- fits ---- */
-
-/* People do not see the numbers of a fit that does not describe the errors. */
+/* People do not see the numbers of a fit that does not describe the errors, nor an order of it that
+ * is not the answer: no page has two answers to one question. */
 void br_put_study_fits(struct br_document *d, const struct br_report *r)
 {
     static const char *const kinds[] = {"space and time", "time", "space"};
@@ -36,10 +35,11 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
         if (!j->converged)
             br_put_shown(d, "none");
         for (int a = 0; a < BR_AXES; a++) {
-            const bool sure = claims && br_order_determined(&j->order[a]);
+            const bool sure = r->seen[part][a].joint; /* else another order is the answer */
             BR_PUT_ESTIMATE(d, &j->order[a],
-                            sure ? br_order_text(&j->order[a], text, sizeof text)
-                                 : "not determined",
+                            sure     ? br_order_text(&j->order[a], text, sizeof text)
+                            : claims ? "not used"
+                                     : "-",
                             .key = orders[a], .heading = headings[a]);
             BR_PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a],
                             .format = "%.3g");

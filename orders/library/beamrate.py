@@ -1,23 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""beamrate in Python: orders of convergence of any numbers; scenes, marches, studies and verdicts.
+"""beamrate in Python: orders of convergence of any numbers, limits of values, and verdicts.
 
     import beamrate
     found = beamrate.orders(frame)  # of pandas, or {"n": [10, 20, 40, 80], "l2": [...]}
     print(found)                    # the answer
     found.assert_order(2)           # in a test
 
-Arrays are numpy's; the library writes into them and reads from them without copies. All quantities
-are in SI units; beamrate.h describes each member of the results. A method is given by keywords:
-scheme="bdf2", axial_degree=2. An error raises Error, or BadInput, with the library's message.
+An order is a Number: a float with its 95 % interval. beamrate.h describes each member of the other
+results. An error raises Error, or BadInput, with the library's message.
 
 $BEAMRATE_LIBRARY names the shared library where it is not installed with this file.
 """
 import ctypes
+import html
 import json
 import math
 import operator
 import os
-import threading
 import weakref
 from ctypes import byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
 from pathlib import Path
@@ -25,18 +24,32 @@ from types import SimpleNamespace
 
 import numpy as np
 
-AXIAL, BENDING = 0, 1  # fields
-TOTAL, OF_AXIAL, OF_BENDING = 0, 1, 2  # components of an error
 SPACE, TIME = 0, 1  # what is refined
 VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
 
 
 class Error(Exception):
-    """A call failed; status as in beamrate.h."""
+    """A call failed; status: as in beamrate.h, None where the library was not called."""
+    status = None
 
 
 class BadInput(Error, ValueError):
     """The input is refused; the message states what was found and what was expected."""
+
+
+class Number(float):
+    """A number with its 95 % interval, low to high; open: why it is not settled, or ""."""
+
+    def __new__(cls, value, low=math.nan, high=math.nan, open=""):
+        self = super().__new__(cls, value)
+        self.low, self.high, self.open = low, high, open
+        return self
+
+    value = property(float)
+
+    def __repr__(self):
+        interval = "" if math.isnan(self.low) else f" [{self.low:.6g}, {self.high:.6g}]"
+        return f"{self:.6g}{interval}{' (not settled)' if self.open else ''}"
 
 
 # ---- the structs of beamrate.h: each member in its order, TYPE:NAME, or TYPE:NAME:COUNT ----
@@ -51,21 +64,9 @@ def _struct(members, **types):
 
 _Error = _struct("i:status c:message:1024")
 _Estimate = _struct("d:value d:low d:high")
-_Observer = _struct("f:progress p:self", f=ctypes.CFUNCTYPE(c_int, c_void_p, c_double))
-_SceneInfo = _struct("s:name s:title d:length d:duration d:density i:modelled:2 i:contact i:friction")
-_Warning = _struct("c:kind:24 c:text:400 c:remedy:400")
-_Forecast = _struct("i:known c:why:200 e:error:2 d:round_off z:warnings w:warning:16",
-                    e=_Estimate, w=_Warning)
-_Tip = _struct("z:step d:time d:displacement:2 d:velocity:2 d:contact_force d:friction_force "
-               "d:friction_bound")
-_MarchReport = _struct("z:n z:steps z:done z:accepted z:rejected z:stages d:round_off i:unstable")
-_StudyRequest = _struct("p:n z:n_count p:steps z:steps_count p:method s:reference z:reference_n "
-                        "z:reference_steps s:norm i:threads p:observer")
-_Cell = _struct("z:n z:steps d:error:3 s:flag:3 d:tip:2 d:seconds s:failure")
-_Fit = _struct("i:describes e:p e:c_h e:q e:c_k e:r d:misfit z:points", e=_Estimate)
-_Reference = _struct("s:name z:n z:steps d:own_error:3 d:size d:tip:2")
-_Case = _struct("s:study s:measure s:part d:expected d:tolerance e:order d:constant d:margin z:points "
+_Case = _struct("s:study s:measure d:expected d:tolerance e:order d:constant d:margin z:points "
                 "z:used i:verdict s:reason s:note", e=_Estimate)
+_Fit = _struct("i:describes e:p e:c_h e:q e:c_k e:r d:misfit z:points", e=_Estimate)
 _Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
 _Order = _struct("e:order d:constant z:points z:used e:limit", e=_Estimate)
 _Table = _struct("s:name s:text s:errors s:values d:dimension d:formal s:columns s:where")
@@ -76,10 +77,10 @@ _Expectation = _struct("i:axis d:order d:tolerance d:down_to")
 
 def _plain(value):
     """A struct as Python's own objects, which outlive its handle."""
+    if isinstance(value, _Estimate):
+        return Number(value.value, value.low, value.high)
     if isinstance(value, ctypes.Structure):
         return SimpleNamespace(**{name: _plain(getattr(value, name)) for name, _ in value._fields_})
-    if isinstance(value, ctypes.Array):
-        return [_plain(item) for item in value]
     return value.decode(errors="replace") if isinstance(value, bytes) else value
 
 
@@ -89,13 +90,13 @@ def _load():
     here = Path(__file__).resolve()
     found = [*here.parent.glob("libbeamrate.so")]
     for prefix in list(here.parents)[3:4]:  # of PREFIX/share/beamrate/python
-        found += [*prefix.glob("lib*/libbeamrate.so.0"), *prefix.glob("lib/*/libbeamrate.so.0")]
-    return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.0"])[0]))
+        found += [*prefix.glob("lib*/libbeamrate.so.1"), *prefix.glob("lib/*/libbeamrate.so.1")]
+    return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.1"])[0]))
 
 
 _lib = _load()
 _lib.beamrate_version.restype = c_char_p
-_lib.beamrate_march_columns.restype = _lib.beamrate_check_count.restype = c_size_t
+_lib.beamrate_check_count.restype = c_size_t
 __version__ = _lib.beamrate_version().decode()
 
 
@@ -124,50 +125,12 @@ def _text(name, value, kinds=(str, os.PathLike)):
         _refuse(BadInput, name, value, "text in UTF-8")
 
 
-def _whole(name, value, most):
-    """A whole number from 0 to most: never one that is rounded, or wraps."""
+def _axis(value):
     try:
         value = operator.index(value)
     except TypeError:
-        _refuse(TypeError, name, value, "a whole number (an integer)")
-    if value < 0:
-        _refuse(BadInput, name, value, "a number of at least 0")
-    if value > most:
-        _refuse(OverflowError, name, value, f"at most {most}")
-    return value
-
-
-def _count(name, value):
-    return c_size_t(_whole(name, value, c_size_t(-1).value))
-
-
-def _counts(name, values):
-    try:
-        values = list(values)
-    except TypeError:
-        _refuse(TypeError, name, values, "a list of whole numbers")
-    return (c_size_t * len(values))(*(_count(name, value) for value in values))
-
-
-def _threads(value):
-    return c_int(_whole("threads", value, 1024))
-
-
-def _choice(name, value, count):
-    try:
-        return c_int(_whole(name, value, count - 1))
-    except OverflowError as error:
-        raise BadInput(*error.args) from None
-
-
-def _method(options):
-    words = [word for name, value in options.items()
-             for word in (_text("method", name), _text(name, value, (str, int, float, np.number)))]
-    return (c_char_p * (len(words) + 1))(*words, None)
-
-
-def _scene(value):
-    return value if isinstance(value, Scene) else _refuse(TypeError, "scene", value, "a Scene")
+        _refuse(TypeError, "axis", value, "a whole number (an integer)")
+    return value if value in (SPACE, TIME) else _refuse(BadInput, "axis", value, "SPACE (0) or TIME (1)")
 
 
 def _numbers(name, values):
@@ -181,45 +144,6 @@ def _numbers(name, values):
     if ((doubles != values) & ((doubles == 0) | np.isinf(doubles))).any():
         _refuse(BadInput, name, values, "numbers within the range of a double")
     return doubles
-
-
-class _Watch:
-    """A caller's progress(share). Its exceptions, and Ctrl-C, end the call and are raised then."""
-
-    def __init__(self, progress):
-        if progress is not None and not callable(progress):
-            _refuse(TypeError, "progress", progress, "a function")
-        self.progress, self.raised = progress, None
-        self.observer = _Observer(_Observer._fields_[0][1](self._called), None)
-
-    def _called(self, _, share):
-        try:
-            return bool(self.raised or self.progress and self.progress(share))
-        except BaseException as error:
-            self.raised = error
-            return True
-
-    def _run(self, arguments, done, failures):
-        try:
-            _call(*arguments)
-        except BaseException as error:
-            failures.append(error)
-        finally:
-            done.set()
-
-    def call(self, *arguments):
-        """The call runs in a thread of its own: the caller's waits, and so Ctrl-C reaches it at once."""
-        done, failures = threading.Event(), []
-        threading.Thread(target=self._run, args=(arguments, done, failures), daemon=True).start()
-        while not done.is_set():
-            try:
-                done.wait()
-            except BaseException as error:
-                self.raised = error
-        if self.raised is not None:
-            raise self.raised
-        if failures:
-            raise failures[0]
 
 
 class _Handle:
@@ -243,105 +167,16 @@ class _Handle:
         raise TypeError(f"a {type(self).__name__} is not copied or pickled: it owns memory of the library")
 
 
-class Scene(_Handle):
-    """A scene: Scene("file.yaml"), Scene("example2"), or of a text, Scene("its name", text)."""
-    _kind = "scene"
-
-    def __init__(self, name, text=None):
-        super().__init__()
-        given = [_text("name", name)] if text is None else [_text("name", name), _text("text", text)]
-        _call("scene_open" if text is None else "scene_parse", byref(self.handle), *given)
-        self.info = self._get("scene_info", _SceneInfo)
-
-    def foresee(self, n, steps, **method):
-        """The expected errors of a march, and its warnings."""
-        out = _Forecast()
-        _call("foresee", self, _count("n", n), _count("steps", steps), _method(method), byref(out))
-        plain = _plain(out)
-        plain.warnings = plain.warning[:plain.warnings]
-        del plain.warning
-        return plain
-
-
-class March(_Handle):
-    """The fully discrete problem, (16) and (17), on n elements and `steps` steps. x: its nodes."""
-    _kind = "march"
-
-    def __init__(self, scene, n, steps, **method):
-        super().__init__()
-        self.scene = _scene(scene)
-        _call("march_create", byref(self.handle), scene, _count("n", n), _count("steps", steps),
-              _method(method))
-        self.x = np.linspace(0, scene.info.length, n + 1)
-
-    def step(self, count=1):
-        """Takes steps; other threads of Python run meanwhile."""
-        _call("march_step", self, _count("count", count))
-
-    def tip(self):
-        return self._get("march_tip", _Tip)
-
-    def report(self):
-        return self._get("march_report", _MarchReport)
-
-    def get(self, field, displacement=None, velocity=None):
-        """Displacement and velocity at the nodes, (n + 1, columns) each; written into given arrays."""
-        field = _choice("field", field, 2)
-        shape = (len(self.x), _lib.beamrate_march_columns(self, field))
-        arrays = [np.empty(shape) if a is None else a for a in (displacement, velocity)]
-        for a in arrays:
-            if not isinstance(a, np.ndarray) or isinstance(a, np.ma.MaskedArray):
-                _refuse(TypeError, "displacement or velocity", a, "an array without a mask")
-            if a.shape != shape or a.dtype != np.float64 or not a.flags.carray:
-                raise BadInput(f"found {a.dtype} {a.shape}, expected a contiguous float64 {shape}")
-        if _lib.beamrate_march_get(self, field, *(c_void_p(a.ctypes.data) for a in arrays)) != 0:
-            raise BadInput("march_get: the library refuses this march")
-        return tuple(arrays)
-
-
-class Study(_Handle):
-    """The errors of a grid against a reference: error[part, i, j] of n[i] and steps[j], cell[i][j]."""
-    _kind = "study"
-
-    def __init__(self, scene, n, steps, reference=None, fine=(0, 0), norm=None, threads=0,
-                 progress=None, **method):
-        super().__init__()
-        watch, words, meshes, times = (_Watch(progress), _method(method), _counts("n", n),
-                                       _counts("steps", steps))
-        if (finest := _counts("fine", fine))._length_ != 2:
-            _refuse(BadInput, "fine", fine, "two numbers: n and steps")
-        request = _StudyRequest(
-            ctypes.addressof(meshes), len(meshes), ctypes.addressof(times), len(times),
-            ctypes.addressof(words), None if reference is None else _text("reference", reference),
-            *finest, None if norm is None else _text("norm", norm), _threads(threads),
-            ctypes.addressof(watch.observer))
-        watch.call("study_run", byref(self.handle), _scene(scene), byref(request))
-        self.n, self.steps = np.array(meshes), np.array(times)
-        self.h, self.k = scene.info.length / self.n, scene.info.duration / self.steps
-        self.cell = [[self._get("study_cell", _Cell, c_size_t(i), c_size_t(j))
-                      for j in range(len(times))] for i in range(len(meshes))]
-        self.error = np.array([[c.error for c in row] for row in self.cell]).transpose(2, 0, 1)
-        self.reference = self._get("study_reference", _Reference)
-
-    def fit(self, part=TOTAL):
-        """Both orders together, from all cells."""
-        return self._get("study_fit", _Fit, _choice("part", part, 3))
-
-
 class Check(_Handle):
-    """Verdicts on a scene's orders; on those of numbers: Orders.check. cases: a list; passed: all."""
+    """Verdicts on orders, by Orders.check. cases: a list; passed: all of them."""
     _kind = "check"
 
-    def __init__(self, scene, threads=0, progress=None, _orders=None, _quantity=0, _expected=()):
+    def __init__(self, orders, quantity, expected):
         super().__init__()
-        watch, out = _Watch(progress), byref(self.handle)
-        if _orders is None:
-            watch.call("check_run", out, _scene(scene), _threads(threads), byref(watch.observer))
-        else:
-            expected = (_Expectation * len(_expected))(*(
-                _Expectation(_choice("axis", axis, 2), *numbers) for axis, *numbers in _expected))
-            _call("orders_check_quantity", out, _orders, c_size_t(_quantity), expected,
-                  c_size_t(len(expected)))
+        expected = (_Expectation * len(expected))(*(
+            _Expectation(_axis(axis), *numbers) for axis, *numbers in expected))
+        _call("orders_check_quantity", byref(self.handle), orders, c_size_t(quantity), expected,
+              c_size_t(len(expected)))
         self.cases = [self._get("check_case", _Case, c_size_t(i))
                       for i in range(_lib.beamrate_check_count(self))]
         for case in self.cases:
@@ -349,27 +184,37 @@ class Check(_Handle):
         self.passed = all(case.verdict == "PASS" for case in self.cases)
 
 
+def _floats(row, *keys):
+    """Numbers of a row of the report, where null is NaN."""
+    return [math.nan if row[key] is None else row[key] for key in keys]
+
+
+def _shown(number, digits):
+    return "" if number is None else format(number, digits)
+
+
 class Quantity:
     """What is known of one column of numbers.
 
-    h, k: the order in each: value, low, high (95 %), and `open`, why it is not settled, or ""; None
-    where it is not refined. order: the only one. limit, gci: of values, the rows of the report's
-    table `limits`: of all, and of the finest line; else None. rows: every row of the report.
-    points: of the finest line, from coarse to fine: size, error, rate, fit, left_out.
+    h, k: the order in each, a Number; None where it is not refined. order: the only one. Of values:
+    limit, a Number; p and gci, the observed order and the grid convergence index at the finest sizes,
+    numbers; else None. limits: the rows of the report's table of that name. rows: every row of the
+    report. points: of the finest line, from coarse to fine: size, error, rate, fit, left_out.
     """
 
     def __init__(self, orders, index):
         first, second = (orders._get("orders_answer", _Answer, c_size_t(index), c_int(axis), found=1)
                          for axis in (SPACE, TIME))
         self.name, self.is_value = first.quantity, bool(first.values)
-        self.h, self.k = (SimpleNamespace(**vars(a.order), open=a.open) if a.refined else None
+        self.h, self.k = (Number(a.order, a.order.low, a.order.high, a.open) if a.refined else None
                           for a in (first, second))
         self._axes = [axis for axis, a in ((SPACE, first), (TIME, second)) if a.refined]
         tables = orders.report["tables"]
         self.rows = tables[f"rows-{index + 1}"]
-        limits = [row for row in tables["limits"] if row["quantity"] == self.name]
-        lines = [row for row in limits if row["in"] in ("h", "k")]
-        self.limit, self.gci = limits[-1] if limits else None, lines[-1] if lines else None
+        self.limits = [row for row in tables["limits"] if row["quantity"] == self.name]
+        lines = [row for row in self.limits if row["in"] in ("h", "k")]
+        self.limit = Number(*_floats(self.limits[-1], "limit", "low", "high")) if self.limits else None
+        self.p, self.gci = _floats(lines[-1], "p", "gci_fine") if lines else (None, None)
         self.points = self._points(orders, index, self._axes[0]) if self._axes else []
 
     @staticmethod
@@ -405,14 +250,17 @@ class Quantity:
         return [point for point in self.points if point.left_out]
 
     def __repr__(self):
-        orders = [f"no order in {axis}" if math.isnan(o.value) else
-                  f"order in {axis} {o.value:.3f} [{o.low:.3f}, {o.high:.3f}]"
-                  for axis, o in (("h", self.h), ("k", self.k)) if o]
+        orders = [f"no order in {axis}" if math.isnan(o) else
+                  f"order in {axis} {o:.3f} [{o.low:.3f}, {o.high:.3f}]"
+                  for axis, o in (("h", self.h), ("k", self.k)) if o is not None]
         return f"{self.name}: " + (", ".join(orders) or "no order")
 
 
 class Orders(_Handle):
-    """Orders of numbers of any program: errors, or values whose limit is not known. See orders()."""
+    """Orders of numbers of any program: errors, or values whose limit is not known. See orders().
+
+    order, limit, p, gci: those of the only column.
+    """
     _kind = "orders"
 
     def __init__(self, number, h=None, k=None, values=False, formal=0, _table=None):
@@ -443,11 +291,44 @@ class Orders(_Handle):
                 return quantity
         raise KeyError(f"{name}: expected one of {[q.name for q in self.quantities]}")
 
+    def _only(self):
+        if len(self.quantities) != 1:
+            raise BadInput(f"found {len(self.quantities)} columns, expected one of "
+                           f"{[q.name for q in self.quantities]} by name")
+        return self.quantities[0]
+
+    order = property(lambda self: self._only().order)
+    limit = property(lambda self: self._only().limit)
+    p = property(lambda self: self._only().p)
+    gci = property(lambda self: self._only().gci)
+
+    def _columns(self):
+        """The headings and texts of one table: sizes, then numbers and rates of each quantity."""
+        rows = self.quantities[0].rows
+        keys = list(rows[0])
+        sizes = keys[1:keys.index("value" if self.quantities[0].is_value else "error")]
+        columns = [(key, [_shown(row[key], ".10g") for row in rows]) for key in sizes]
+        axes = [key for key in ("rate_h", "rate_k") if key in keys]
+        for q in self.quantities:
+            number, digits = ("value", ".9g") if q.is_value else ("error", ".3e")
+            columns.append((q.name, [f"{_shown(row[number], digits)} {row['left_out']}" for row in q.rows]))
+            columns += [("rate" if len(axes) == 1 else key.replace("_", " in "),
+                         [_shown(row[key], ".2f") for row in q.rows]) for key in axes]
+        return columns
+
+    def _repr_html_(self):
+        """In a notebook: the answer, and the table."""
+        heads, texts = zip(*self._columns())
+        lines = "".join("<tr>" + "".join(f"<{tag}>{html.escape(word.strip())}</{tag}>" for word in line)
+                        + "</tr>" for tag, line in [("th", heads), *(("td", t) for t in zip(*texts))])
+        answer = "<br>".join(map(html.escape, self.report["answer"]))
+        return f"<p>{answer}</p><table>{lines}</table>"
+
     def line(self, axis):
         """The order of the first column along an axis, at the finest size of the other one; None: there
         is no line."""
         out = _Order()
-        found = _lib.beamrate_orders_line(self, _choice("axis", axis, 2), byref(out))
+        found = _lib.beamrate_orders_line(self, c_int(_axis(axis)), byref(out))
         return _plain(out) if found else None
 
     def fit(self):
@@ -458,7 +339,7 @@ class Orders(_Handle):
         """Verdicts on expectations: (axis, order, tolerance) or (axis, order, tolerance, down_to); of
         the quantity of that name, else of the first."""
         index = 0 if quantity is None else self.quantities.index(self[quantity])
-        return Check(None, _orders=self, _quantity=index, _expected=expected)
+        return Check(self, index, expected)
 
     def assert_order(self, order, tolerance=0.1, quantity=None, axis=None, down_to=0):
         """For tests: AssertionError with the reason unless the verdict is PASS, which needs the whole
