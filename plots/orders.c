@@ -6,17 +6,73 @@
 
 #include "plots/pictures.h"
 #include "study/base/quote.h"
+#include "study/base/words.h"
 #include "study/orders/orders.h"
 
-/* The errors, with the line of their order and its band; those of a joint fit, which is no line,
- * are joined. */
-static void add_line(struct br_figure *f, const struct br_orders *o,
-                     const struct br_quantity_orders *of, const struct br_orders_line *line)
+static const struct br_quantity *quantity_of(const struct br_orders *o,
+                                             const struct br_quantity_orders *of)
 {
-    char name[sizeof((struct br_series *)0)->title];
+    return &o->numbers->quantity[of->quantity];
+}
+
+/* A foreign name of at most `most` bytes, shortened by whole characters. */
+enum { NAME = 40, SHORT = 24, MARKUP = 90 };
+static const char *shortened(const char *name, size_t most, char text[NAME])
+{
+    const bool whole = strlen(name) < most;
+    most -= 4;
+    while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
+        most--;
+    snprintf(text, NAME, "%.*s%s", whole ? NAME : (int)most, name, whole ? "" : "...");
+    return text;
+}
+
+/* The same as markup. */
+static const char *name_of(const char *name, char markup[MARKUP])
+{
+    return br_quoted(markup, MARKUP, &br_for_markup, shortened(name, NAME, (char[NAME]){0}));
+}
+
+/* "2.00 [1.99, 2.01]": what is found of the order along an axis. */
+static const char *order_of(const struct br_quantity_orders *of, enum br_axis axis, char text[64])
+{
+    const struct br_orders_line *line = br_orders_finest(of, axis);
+    const struct br_estimate *order = &of->answer[axis].order;
+    const bool exponential = line && isfinite(line->observed.factor.low);
+    if (order->low > 0 && isfinite(order->value))
+        return br_order_text(order, text, 64);
+    return exponential ? "exponential" : "not measurable";
+}
+
+/* "l2: 2.00 [1.99, 2.01]", of two axes "l2: h 2.00 [1.99, 2.01], k 1.00 [0.99, 1.01]": one title in
+ * all panels, so that the quantity has one hue. Plain. */
+enum { TITLE = sizeof((struct br_series *)0)->title };
+static const char *title_of(const struct br_orders *o, const struct br_quantity_orders *of,
+                            char title[TITLE])
+{
+    char text[64];
+    const char *between = ": ";
+    const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
+    shortened(quantity_of(o, of)->name, NAME, title);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        if (br_orders_finest(of, axis)) {
+            br_append(title, TITLE, "%s%s%s%s", between, both ? br_axis_letters[axis] : "",
+                      both ? " " : "", order_of(of, axis, text));
+            between = ", ";
+        }
+    return title;
+}
+
+/* The errors, with the line of their order and its band; those of a joint fit, which is no line,
+ * are joined. Returns the errors. */
+static const struct br_series *add_line(struct br_figure *f, const struct br_orders *o,
+                                        const struct br_quantity_orders *of,
+                                        const struct br_orders_line *line)
+{
+    char title[TITLE], name[TITLE];
     const struct br_case *c = &line->observed;
     const bool fitted = c->points && isfinite(c->point[0].fit.value);
-    br_quoted(name, sizeof name, &br_for_markup, o->numbers->quantity[of->quantity].name);
+    br_quoted(name, sizeof name, &br_for_markup, title_of(o, of, title));
     struct br_fitted_series s = {0};
     if (fitted)
         s = br_fitted_series_add(f, name);
@@ -33,6 +89,7 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
     for (size_t i = c->points; i-- > 0 && fitted;)
         br_point_add(s.area, c->point[i].z, c->point[i].fit.high, NULL);
     br_series_sort(s.marks);
+    return s.marks;
 }
 
 /* A size has the unit of the source; one over a count has none. */
@@ -50,46 +107,152 @@ static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char 
                  unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* The unit is named where all quantities have the same. */
-static void name_quantities(const struct br_numbers *numbers, char label[96])
+/* The unit is named where all errors have the same. */
+static void name_errors(const struct br_numbers *numbers, char label[96])
 {
-    const char *unit = numbers->quantity[0].unit;
-    size_t values = 0;
+    const char *unit = NULL;
+    bool first = true;
     for (size_t i = 0; i < numbers->quantities; i++) {
         const char *own = numbers->quantity[i].unit;
-        values += numbers->quantity[i].is_value;
-        unit = unit && own && strcmp(unit, own) == 0 ? unit : NULL;
+        if (numbers->quantity[i].is_value)
+            continue;
+        unit = own && (first || (unit && strcmp(unit, own) == 0)) ? own : NULL;
+        first = false;
     }
     char quoted[60]; /* the label has room for 96 bytes */
-    snprintf(label, 96, "%s%s%s",
-             values == 0                    ? "error"
-             : values < numbers->quantities ? "error, or difference of values"
-                                            : "difference of values",
-             unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+    snprintf(label, 96, "error%s%s", unit ? ", " : "",
+             unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* The lines along one axis: for each quantity the one at the finest size of the other axis. */
-static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
+/* The order of a triangle: a half or whole one where that is near. */
+static double slope_of(double order)
 {
-    double slope[3];
-    size_t slopes = 0;
-    char x[96], y[96];
-    name_axis(o->numbers, axis, x);
-    name_quantities(o->numbers, y);
-    struct br_panel *p = br_panel_add(f, x, y);
-    p->log_x = p->log_y = true;
+    const double half = round(2 * order) / 2;
+    return fabs(order - half) < 0.15 ? half : round(10 * order) / 10;
+}
+
+/* The lines of errors along one axis: for each quantity the one at the finest size of the other
+ * axis. Of each order one line has its triangle. */
+static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
+{
+    const struct br_series *line[BR_HUES];
+    double order[BR_HUES];
+    size_t lines = 0;
+    struct br_panel *p = NULL;
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
-        if (!finest)
+        char x[96], y[96];
+        if (!finest || quantity_of(o, &o->of[i])->is_value)
             continue;
-        add_line(f, o, &o->of[i], finest);
+        if (!p) {
+            name_axis(o->numbers, axis, x);
+            name_errors(o->numbers, y);
+            p = br_panel_add(f, x, y);
+            p->log_x = p->log_y = true;
+        }
+        const struct br_series *marks = add_line(f, o, &o->of[i], finest);
+        if (marks->pen == BR_PEN_OTHERS && axis == o->of[i].line[0].axis)
+            br_append(f->note[1], sizeof f->note[1], "%s%s",
+                      f->note[1][0] ? "; " : "Grey: ", title_of(o, &o->of[i], (char[TITLE]){0}));
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        const double order = round(o->of[i].answer[axis].order.value);
-        if (slopes < 3 && order >= 1)
-            slopes = br_slope_put(slope, slopes, order);
+        if (lines < BR_HUES) {
+            order[lines] = slope_of(o->of[i].answer[axis].order.value);
+            line[lines++] = marks;
+        }
     }
-    br_slopes_add(f, slopes, slope);
+    for (size_t i = 0; i < lines; i++)
+        br_slope_add(f, line[i], order[i]);
+}
+
+/* ---- values ---- */
+
+/* The bar of an interval; an end that is far from the values has no cap. */
+static void add_bar(struct br_figure *f, double x, double half, const struct br_range *values,
+                    double low, double high)
+{
+    const double far = fmax(values->high - values->low, 0.01 * fabs(values->high));
+    const double ends[] = {fmax(low, values->low - far), fmin(high, values->high + far)};
+    struct br_series *bar = br_series_add(f, BR_PEN_THIN, "%s", "");
+    for (int i = 0; i < 2; i++) {
+        const double cap = ends[i] == (i ? high : low) ? half : 0;
+        br_point_add(bar, i ? x : x - cap, ends[i], NULL);
+        br_point_add(bar, x + cap, ends[i], NULL);
+        br_point_add(bar, i ? x - cap : x, ends[i], NULL);
+    }
+}
+
+/* "p = 1.91, GCI 0.03 %, limit 24.94 [24.93, 24.95]" */
+static void say_value(const struct br_orders_line *line, bool whole, char *text, size_t size)
+{
+    const struct br_gci *g = &line->limits.gci;
+    const struct br_grid_limit *limit = &line->limits.limit;
+    char number[128];
+    strcpy(text, "");
+    if (isfinite(g->fine.index))
+        br_append(text, size, "p = %.2f, GCI %.2g %%", g->order, 100 * g->fine.index);
+    if (isfinite(limit->value.low) && (whole || !*text))
+        br_append(text, size, "%slimit %s", *text ? ", " : "",
+                  br_interval_text(&limit->value, number, sizeof number));
+    else if (!isfinite(limit->value.low))
+        br_append(text, size, "%sno limit: %s", *text ? ", " : "",
+                  limit->sequence ? br_sequence_text(limit->sequence) : "too little is known");
+}
+
+/* The curve through the three finest values, which ends at their limit, as the grid convergence
+ * index takes it. */
+static void add_curve(struct br_figure *f, const struct br_gci *g, double h, double value,
+                      double end, const char *title)
+{
+    enum { PIECES = 60 };
+    struct br_series *s = br_series_add(f, BR_PEN_LINE, "%s", title);
+    for (int i = 0; i <= PIECES; i++) {
+        const double x = end * pow((double)i / PIECES, fmax(1, 1 / g->order));
+        br_point_add(s, x, g->fine.limit + (value - g->fine.limit) * pow(x / h, g->order), NULL);
+    }
+}
+
+/* A value over the size, its limit with the interval at 0, and at the finest size its GCI. */
+static void add_value(struct br_figure *f, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_quantity *q = quantity_of(o, of);
+    const struct br_gci *g = &line->limits.gci;
+    const struct br_estimate *limit = &line->limits.limit.value;
+    const size_t rows = line->observed.points + 1;
+    const struct br_numbers_row *row = o->numbers->row, *finest = NULL;
+    char name[MARKUP], unit[MARKUP], x[96];
+    double end = 0;
+    name_of(q->name, name);
+    name_axis(o->numbers, line->axis, x);
+    struct br_panel *p = br_panel_add(f, x, "");
+    BR_SAY(p->y_label, "%s%s%s", name, q->unit ? ", " : "", q->unit ? name_of(q->unit, unit) : "");
+    say_value(line, true, p->title, sizeof p->title);
+    const bool curve = g->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->low);
+    p->margins = true;
+    struct br_series *marks = br_series_add(f, curve ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", name);
+    for (size_t i = 0; i < rows; i++) {
+        const struct br_numbers_row *at = &row[line->row[i]];
+        br_point_add(marks, at->z[line->axis], at->number[of->quantity], NULL);
+        finest = isfinite(at->number[of->quantity]) ? at : finest;
+        end = fmax(end, at->z[line->axis]);
+    }
+    const struct br_range values = br_extent(p, true);
+    if (!finest)
+        return;
+    const double h = finest->z[line->axis], value = finest->number[of->quantity];
+    if (curve)
+        add_curve(f, g, h, value, end, name);
+    if (isfinite(g->fine.uncertainty)) {
+        br_series_add(f, BR_PEN_THIN, "GCI of the finest value");
+        add_bar(f, h, 0.015 * end, &values, value - g->fine.uncertainty,
+                value + g->fine.uncertainty);
+    }
+    if (isfinite(limit->low)) {
+        br_point_add(br_series_add(f, BR_PEN_RINGS, "limit, with its 95 %% interval"), 0,
+                     limit->value, NULL);
+        add_bar(f, 0, 0.015 * end, &values, limit->low, limit->high);
+    }
 }
 
 /* Adds errors over processor time where runs were timed. */
@@ -104,12 +267,11 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     struct br_panel *p = br_panel_add(f, "processor time (s)", "error");
     p->log_x = p->log_y = true;
     for (size_t i = 0; i < o->count; i++) {
-        char quoted[sizeof((struct br_series *)0)->title];
-        const struct br_quantity *q = &numbers->quantity[o->of[i].quantity];
-        if (q->is_value)
+        char title[TITLE], name[TITLE];
+        if (quantity_of(o, &o->of[i])->is_value)
             continue;
-        struct br_series *s = br_series_add(
-            f, BR_PEN_CURVE, "%s", br_quoted(quoted, sizeof quoted, &br_for_markup, q->name));
+        br_quoted(name, sizeof name, &br_for_markup, title_of(o, &o->of[i], title));
+        struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", name);
         for (size_t row = 0; row < numbers->rows; row++)
             if (br_orders_cheapest(o, o->of[i].quantity,
                                    numbers->row[row].number[o->of[i].quantity]) ==
@@ -120,20 +282,70 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     }
 }
 
+/* Appends a part of a title; of many only the first. */
+enum { MOST = 3 };
+static void say_part(char *title, size_t size, size_t *said, const char *before, const char *name,
+                     const char *text)
+{
+    if ((*said)++ < MOST)
+        br_append(title, size, "%s%s%s", before, shortened(name, SHORT, (char[NAME]){0}), text);
+    else if (*said == MOST + 1)
+        br_append(title, size, ", ...");
+}
+
+/* "Order in h: l2 2.00, h1 1.00; in k: l2 1.00"; one quantity has its interval, too. */
+static void say_orders(const struct br_orders *o, enum br_axis axis, char *title, size_t size)
+{
+    size_t said = 0;
+    char before[16], text[72] = " ";
+    snprintf(before, sizeof before, "%sn %s: ", *title ? "; i" : "Order i", br_axis_letters[axis]);
+    for (size_t i = 0; i < o->count; i++) {
+        const struct br_quantity *q = quantity_of(o, &o->of[i]);
+        if (q->is_value || !br_orders_finest(&o->of[i], axis))
+            continue;
+        snprintf(text + 1, sizeof text - 1, "%s", order_of(&o->of[i], axis, (char[64]){0}));
+        char *interval = o->count > 1 ? strstr(text, " [") : NULL;
+        if (interval)
+            *interval = '\0';
+        say_part(title, size, &said, said ? ", " : before, q->name, text);
+    }
+}
+
+/* "drag: p = 1.91, GCI 0.03 %; lift: p = ...". */
+static void say_values(const struct br_orders *o, char *title, size_t size)
+{
+    size_t said = 0;
+    char text[160] = ": ";
+    for (size_t i = 0; i < o->count; i++) {
+        const struct br_quantity *q = quantity_of(o, &o->of[i]);
+        if (!q->is_value || !o->of[i].lines)
+            continue;
+        say_value(br_orders_finest(&o->of[i], o->of[i].line[0].axis), o->count == 1, text + 2,
+                  sizeof text - 2);
+        say_part(title, size, &said, *title ? "; " : "", q->name, text);
+    }
+}
+
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)
 {
     struct br_figure f = {0};
     BR_SAY(f.stem, "orders");
-    BR_SAY(f.title, "%s. Orders of convergence", caption);
-    BR_SAY(f.about, "errors, or differences of values, over the size of elements and of steps");
+    BR_SAY(f.note[0], "%s", caption);
+    BR_SAY(f.about, "errors, or values, over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        bool any = false;
-        for (size_t i = 0; i < orders->count; i++)
-            any |= br_orders_finest(&orders->of[i], (enum br_axis)axis) != NULL;
-        if (any)
-            add_panel(&f, orders, (enum br_axis)axis);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
+        say_orders(orders, axis, f.title, sizeof f.title);
+        add_errors(&f, orders, axis);
     }
+    say_values(orders, f.title, sizeof f.title);
     add_costs(&f, orders);
+    for (size_t i = 0; i < orders->count; i++)
+        for (enum br_axis axis = 0; axis < BR_AXES && f.panels < BR_FIGURE_PANELS; axis++) {
+            const struct br_orders_line *line = br_orders_finest(&orders->of[i], axis);
+            if (line && quantity_of(orders, &orders->of[i])->is_value)
+                add_value(&f, orders, &orders->of[i], line);
+        }
+    if (f.panels == 1 && !f.panel[0].log_x)
+        f.panel[0].title[0] = '\0'; /* the figure has it */
     return f;
 }
