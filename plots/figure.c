@@ -129,35 +129,39 @@ static double height_at(const struct br_panel *p, const struct br_series *s, dou
     return NAN;
 }
 
-/* Whether a series enters the box, or jumps over it. */
-static bool enters(const struct br_panel *p, const struct br_series *s, const struct box *b)
+/* Whether a series comes near a triangle in the box; the triangle is below its own series, or
+ * above. own: at its sides; else also beside them, where the triangle has its number. */
+static bool is_near(const struct br_panel *p, const struct br_series *s, const struct box *b,
+                    bool below, bool own)
 {
     enum { LOOKS = 24 };
-    double before = NAN;
+    const double more = 0.03, number = 0.09;
+    const double from = b->left - (own ? 0 : below ? more : number);
+    const double to = b->right + (own ? 0 : below ? number : more);
+    int before = 0; /* 1: the series is above, -1: below */
     for (int i = 0; i <= LOOKS; i++) {
-        const double y = height_at(p, s, b->left + (b->right - b->left) * i / LOOKS);
-        if ((y > b->low && y < b->high) || (y <= b->low && before >= b->high) ||
-            (y >= b->high && before <= b->low))
+        const double x = from + (to - from) * i / LOOKS, y = height_at(p, s, x);
+        const double share = fmin(fmax((x - b->left) / (b->right - b->left), 0), 1);
+        const double side = b->low + (b->high - b->low) * share;
+        const bool over = y >= (below ? side : b->high) + more;
+        const bool under = y <= (below ? b->low : side) - more;
+        if (!isnan(y) && ((!over && !under) || before == (over ? -1 : 1)))
             return true;
-        before = y;
+        before = over ? 1 : under ? -1 : 0;
     }
     return false;
 }
 
-/* Whether a triangle in the box would touch a series: its own along the longest side, or another
- * one, or its triangle, anywhere near. */
+/* Whether a series, or its triangle, is in the way. */
 static bool is_taken(const struct br_panel *p, const struct br_series *own, const struct box *b,
                      bool below)
 {
-    const struct box near = {b->left - (below ? 0.03 : 0.09), b->right + (below ? 0.09 : 0.03),
-                             b->low - 0.03, b->high + 0.03}; /* with the number beside it */
-    const double side = below ? 1 : -1;
-    bool taken = b->left < 0.01 || b->right > 0.99;
-    for (size_t i = 0; i < p->count; i++)
-        taken |= p->series[i]->pen != BR_PEN_AREA && strcmp(p->series[i]->title, own->title) != 0 &&
-                 enters(p, p->series[i], &near);
-    return taken || !(side * (height_at(p, own, b->left) - b->low) > 0.02) ||
-           !(side * (height_at(p, own, b->right) - b->high) > 0.02);
+    for (size_t i = 0; i < p->count; i++) {
+        const struct br_series *s = p->series[i];
+        if (s->pen != BR_PEN_AREA && is_near(p, s, b, below, strcmp(s->title, own->title) == 0))
+            return true;
+    }
+    return b->left < 0.01 || b->right > 0.99;
 }
 
 /* Draws the legs on the side of the box that is away from the series. */

@@ -267,7 +267,8 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
         br_put_more(d, ", p = %.2f", g->order);
         if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
             say_dimension(d, o, g->order);
-        br_put_more(d, ", GCI %.2g %%, asymptotic %.3f", 100 * g->fine.index, g->asymptotic);
+        br_put_more(d, ", GCI %.2g %% of the finest value, asymptotic %.3f", 100 * g->fine.index,
+                    g->asymptotic);
     }
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
 }
@@ -339,23 +340,27 @@ static void put_left_out(struct br_document *d, const struct br_orders *o, size_
         text = "";
         for (size_t i = from; i < to; i++) {
             const enum br_flag flag = flag_of(o, &o->of[i], row);
-            if (flag)
-                text = br_format(d, "%s%s%s: %s", text, between, quantity_of(o, &o->of[i])->name,
-                                 br_flag_name(flag));
-            between = *text ? "; " : "";
+            if (!flag)
+                continue;
+            text = br_format(d, "%s%s%s: %s", text ? text : "", between,
+                             quantity_of(o, &o->of[i])->name, br_flag_name(flag));
+            between = "; ";
         }
     }
     BR_PUT(d, br_text(text), .key = "left_out", .heading = "left out");
     BR_PUT(d, br_text(r->failure), .key = "failure", .flags = BR_FILES_ONLY | BR_WRAP);
 }
 
-/* Puts a number and its rates. prefix: of the keys, which are unique in a table. */
+/* Puts a number and its rates. number: of the quantity, where several stand in a row; else 0. */
 static void put_number(struct br_document *d, const struct br_orders *o,
-                       const struct br_quantity_orders *of, size_t row, const char *prefix)
+                       const struct br_quantity_orders *of, size_t row, size_t number)
 {
+    char prefix[24] = ""; /* of the keys, which are unique in a table */
     const struct br_numbers *n = o->numbers;
     const struct br_quantity *q = quantity_of(o, of);
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
+    if (number)
+        snprintf(prefix, sizeof prefix, "%zu ", number);
     BR_PUT(d, br_number(n->row[row].number[of->quantity]),
            .key = br_format(d, "%s%s", prefix, q->is_value ? "value" : "error"),
            .heading = *prefix ? q->name : NULL, .unit = q->unit,
@@ -390,8 +395,12 @@ static void put_rows(struct br_document *d, const struct br_orders *o, size_t fr
             BR_PUT(d, br_text(first), .key = "quantity");
         put_given(d, o->numbers, row);
         for (size_t i = from; i < to; i++)
-            put_number(d, o, &o->of[i], row, people ? br_format(d, "%zu ", i + 1) : "");
+            put_number(d, o, &o->of[i], row, people ? i + 1 : 0);
         put_left_out(d, o, from, to, row);
+        for (int axis = 0; axis < BR_AXES && !people; axis++)
+            if (o->numbers->column[axis])
+                BR_PUT(d, br_number(o->numbers->row[row].z[axis]),
+                       .key = axis == BR_AXIS_SPACE ? "size_h" : "size_k");
     }
 }
 
