@@ -121,14 +121,15 @@ static void add_series(const struct br_figure *f, struct key *key)
 static struct page lay_out(const struct br_figure *f)
 {
     const size_t n = f->panels ? f->panels : 1;
-    struct page l = {.width = n > 1 ? 1500 : 960, .top = 65};
+    const bool rows = f->panels && f->panel[0].rows, small = n == 1 && !rows;
+    struct page l = {.width = n > 1 ? 1500 : small ? 960 : 1200, .top = 65};
     struct key key = {0};
     l.across = n <= 3 ? n : n == 4 ? 2 : 3;
     l.down = (n + l.across - 1) / l.across;
-    l.height = l.down > 1 ? 1250 : n > 1 ? 800 : 720;
-    if (f->panels && f->panel[0].rows) { /* a line of text for each row */
-        const struct br_range rows = br_extent(&f->panel[0], true);
-        l.height = fmax(l.height, 250 + 28 * (rows.high - rows.low));
+    l.height = l.down > 1 ? 1250 : small ? 720 : 800;
+    if (rows) { /* a line of text for each */
+        const struct br_range r = br_extent(&f->panel[0], true);
+        l.height = fmax(l.height, 250 + 28 * (r.high - r.low));
     }
     for (size_t i = 0; i < BR_FIGURE_NOTES; i++)
         l.top += f->note[i][0] ? LINE - 4 : 0;
@@ -242,7 +243,7 @@ static struct br_range axis_range(const struct br_figure *f, const struct br_pan
     return (struct br_range){r.low == 0 && !p->margins ? 0 : r.low - more, r.high + more};
 }
 
-/* The digits that tell numbers of a linear axis apart. */
+/* The digits that tell numbers of a linear axis apart; a format has six at least. */
 static int digits_of(struct br_range r)
 {
     const double digits = ceil(log10(fmax(fabs(r.low), fabs(r.high)) / (r.high - r.low))) + 2;
@@ -256,8 +257,11 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
 {
     fprintf(out, "set %crange [%.9g:%.9g]\n", axis, r.low, r.high);
     if (!logarithmic) {
-        fprintf(out, "set %ctics nomirror autofreq; set format %c '%%.%dg'\n", axis, axis,
-                digits_of(r));
+        const int digits = digits_of(r);
+        fprintf(out,
+                digits > 6 ? "set %ctics nomirror autofreq; set format %c '%%.%dg'\n"
+                           : "set %ctics nomirror autofreq; set format %c '%%g'\n",
+                axis, axis, digits);
         return;
     }
     /* Ticks start at a power of ten: without a start gnuplot 5.4 begins at half a decade for some

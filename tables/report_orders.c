@@ -52,18 +52,19 @@ static void say_meaning(struct br_document *d, const struct br_orders *o,
                        : o->numbers->column[axis]->is_degree ? "1/p"
                        : axis == BR_AXIS_SPACE               ? "the mesh size"
                                                              : "the time step";
-    const char *number = quantity_of(o, of)->is_value     ? "distance to the limit"
-                         : br_joint_describes(&of->joint) ? "part of the error"
-                                                          : "error";
+    const bool joint = br_joint_describes(&of->joint);
+    const char *number = quantity_of(o, of)->is_value ? "distance to the limit" : "error";
     const double order = of->answer[axis].order.value, factor = exp2(order);
     const double whole = round(order);
     const bool is_part = whole >= 1 && whole <= 4 && fabs(factor / exp2(whole) - 1) < 0.02;
     br_put_more(d, ": half %s, ", size);
     if (is_part)
-        br_put_more(d, "%s%s %s", parts[(int)whole - 1], whole > 1 ? " of the" : " the", number);
+        br_put_more(d, "%s%s the %s", parts[(int)whole - 1], whole > 1 ? " of" : "", number);
     else
         br_put_more(d, factor < 10 ? "the %s divided by %.2g" : "the %s divided by %.0f", number,
                     factor);
+    if (joint)
+        br_put_more(d, " in %s", br_axis_letters[axis]);
 }
 
 /* "exponential: each degree divides the error by 8.1 [7.9, 8.3]"; false: it is not, or not known.
@@ -388,7 +389,10 @@ static void put_rows(struct br_document *d, const struct br_orders *o, size_t fr
     const char *first = quantity_of(o, &o->of[from])->name;
     const char *last = quantity_of(o, &o->of[to - 1])->name;
     br_put_table(d, people ? "" : br_format(d, "rows-%zu", from + 1),
-                 all ? "Row by row" : br_format(d, "Row by row, %s to %s", first, last), flags);
+                 people && all ? "Row by row"
+                 : people      ? br_format(d, "Row by row, %s to %s", first, last)
+                               : br_format(d, "%s, row by row", first),
+                 flags);
     for (size_t row = 0; row < o->numbers->rows; row++) {
         br_put_row(d);
         if (!people)
