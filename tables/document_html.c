@@ -224,7 +224,7 @@ static void print_title(const struct br_markup_page *p, const struct br_document
                 (int)(first + blank + strcspn(d->format + first + blank, " ")), d->format, count);
 }
 
-/* Prints a list of the reports, with the first answer and the tally of the verdicts of each. */
+/* Prints a list of the reports, with the tally of the verdicts or the first answer of each. */
 static void print_contents(struct br_markup_page *p, const struct br_document *d, size_t count)
 {
     fputs("<h1>", p->out);
@@ -234,9 +234,11 @@ static void print_contents(struct br_markup_page *p, const struct br_document *d
         fprintf(p->out, "<li><a href=\"#report%zu\">", i + 1);
         br_markup_put(p, "", d[i].caption, "</a> (");
         br_markup_put(p, "", d[i].name, ")<br>");
-        br_markup_put(p, "", d[i].answers ? d[i].answer[0] : "", d[i].verdicts ? "<br>" : NULL);
         p->d = &d[i];
-        br_markup_tally(p);
+        if (p->d->verdicts)
+            br_markup_tally(p);
+        else
+            br_markup_text(p, p->d->answers ? p->d->answer[0] : "");
         fputs("</li>\n", p->out);
     }
     fputs("</ol></nav>\n", p->out);

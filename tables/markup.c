@@ -295,7 +295,8 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
 {
     const bool passed = v->outcome == BR_OUTCOME_PASS;
     const size_t letters = strlen(v->name) + strlen(v->message ? v->message : "") +
-                           strlen(v->group) + strlen("INCONCLUSIVE , : ");
+                           strlen(v->group) + (v->line ? strlen(v->file) : 0) +
+                           strlen("INCONCLUSIVE ,  (:1000): ");
     const bool wraps = v->message && p->columns && letters > (size_t)p->columns;
     say(p, p->markup->verdict.before);
     print_word(p, v->outcome);
