@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/quote.h"
+#include "base/words.h"
+#include "orders/orders.h"
 #include "plots/pictures.h"
-#include "study/base/quote.h"
-#include "study/base/words.h"
-#include "study/orders/orders.h"
 
 static const struct br_quantity *quantity_of(const struct br_orders *o,
                                              const struct br_quantity_orders *of)
