@@ -134,20 +134,18 @@ static double height_at(const struct br_panel *p, const struct br_series *s, dou
 static bool is_near(const struct br_panel *p, const struct br_series *s, const struct box *b,
                     bool below, bool own)
 {
-    enum { LOOKS = 24 };
+    enum { LOOKS = 60 };
     const double more = 0.03, number = 0.09;
     const double from = b->left - (own ? 0 : below ? more : number);
     const double to = b->right + (own ? 0 : below ? number : more);
-    int before = 0; /* 1: the series is above, -1: below */
     for (int i = 0; i <= LOOKS; i++) {
         const double x = from + (to - from) * i / LOOKS, y = height_at(p, s, x);
         const double share = fmin(fmax((x - b->left) / (b->right - b->left), 0), 1);
         const double side = b->low + (b->high - b->low) * share;
         const bool over = y >= (below ? side : b->high) + more;
         const bool under = y <= (below ? b->low : side) - more;
-        if (!isnan(y) && ((!over && !under) || before == (over ? -1 : 1)))
+        if (!isnan(y) && !over && !under)
             return true;
-        before = over ? 1 : under ? -1 : 0;
     }
     return false;
 }

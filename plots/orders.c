@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors, or differences of values, of any program over the size of elements or steps. */
+/* Errors of any program, or values with their limits, over the size of elements or steps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,22 +15,21 @@ static const struct br_quantity *quantity_of(const struct br_orders *o,
     return &o->numbers->quantity[of->quantity];
 }
 
-/* A foreign name of at most `most` bytes, shortened by whole characters. */
-enum { NAME = 40, SHORT = 24, MARKUP = 90 };
-static const char *shortened(const char *name, size_t most, char text[NAME])
+/* A foreign name, shortened by whole characters; plain, or as markup. */
+enum { NAME = 40, MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
+static const char *shortened(const char *name, char *text)
 {
-    const bool whole = strlen(name) < most;
-    most -= 4;
+    const bool whole = strlen(name) < NAME;
+    int most = NAME - 4;
     while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
         most--;
-    snprintf(text, NAME, "%.*s%s", whole ? NAME : (int)most, name, whole ? "" : "...");
+    snprintf(text, NAME, "%.*s%s", whole ? NAME : most, name, whole ? "" : "...");
     return text;
 }
 
-/* The same as markup. */
 static const char *name_of(const char *name, char markup[MARKUP])
 {
-    return br_quoted(markup, MARKUP, &br_for_markup, shortened(name, NAME, (char[NAME]){0}));
+    return br_quoted(markup, MARKUP, &br_for_markup, shortened(name, (char[NAME]){0}));
 }
 
 /* "2.00 [1.99, 2.01]": what is found of the order along an axis. */
@@ -44,16 +43,33 @@ static const char *order_of(const struct br_quantity_orders *of, enum br_axis ax
     return exponential ? "exponential" : "not measurable";
 }
 
+/* Appends "p = 1.91, GCI 0.03 %, limit 24.94 [24.93, 24.95]". */
+static void say_value(const struct br_orders_line *line, char *text, size_t size)
+{
+    const struct br_gci *g = &line->limits.gci;
+    const struct br_grid_limit *limit = &line->limits.limit;
+    char number[128];
+    if (isfinite(g->fine.index))
+        br_append(text, size, "p = %.2f, GCI %.2g %%, ", g->order, 100 * g->fine.index);
+    if (isfinite(limit->value.low))
+        br_append(text, size, "limit %s", br_interval_text(&limit->value, number, sizeof number));
+    else
+        br_append(text, size, "no limit: %s", br_sequence_text(limit->sequence));
+}
+
 /* "l2: 2.00 [1.99, 2.01]", of two axes "l2: h 2.00 [1.99, 2.01], k 1.00 [0.99, 1.01]": one title in
  * all panels, so that the quantity has one hue. Plain. */
-enum { TITLE = sizeof((struct br_series *)0)->title };
 static const char *title_of(const struct br_orders *o, const struct br_quantity_orders *of,
                             char title[TITLE])
 {
     char text[64];
     const char *between = ": ";
     const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
-    shortened(quantity_of(o, of)->name, NAME, title);
+    shortened(quantity_of(o, of)->name, title);
+    if (quantity_of(o, of)->is_value) {
+        say_value(br_orders_finest(of, of->line[0].axis), strcat(title, ": "), TITLE);
+        return title;
+    }
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
         if (br_orders_finest(of, axis)) {
             br_append(title, TITLE, "%s%s%s%s", between, both ? br_axis_letters[axis] : "",
@@ -107,23 +123,6 @@ static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char 
                  unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* The unit is named where all errors have the same. */
-static void name_errors(const struct br_numbers *numbers, char label[96])
-{
-    const char *unit = NULL;
-    bool first = true;
-    for (size_t i = 0; i < numbers->quantities; i++) {
-        const char *own = numbers->quantity[i].unit;
-        if (numbers->quantity[i].is_value)
-            continue;
-        unit = own && (first || (unit && strcmp(unit, own) == 0)) ? own : NULL;
-        first = false;
-    }
-    char quoted[60]; /* the label has room for 96 bytes */
-    snprintf(label, 96, "error%s%s", unit ? ", " : "",
-             unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
-}
-
 /* The order of a triangle: a half or whole one where that is near. */
 static double slope_of(double order)
 {
@@ -139,17 +138,22 @@ static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_a
     double order[BR_HUES];
     size_t lines = 0;
     struct br_panel *p = NULL;
+    const char *common = NULL;
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
-        char x[96], y[96];
+        const char *unit = o->numbers->quantity[o->of[i].quantity].unit;
+        char x[96], quoted[MARKUP];
         if (!finest || quantity_of(o, &o->of[i])->is_value)
             continue;
         if (!p) {
             name_axis(o->numbers, axis, x);
-            name_errors(o->numbers, y);
-            p = br_panel_add(f, x, y);
+            p = br_panel_add(f, x, "");
             p->log_x = p->log_y = true;
+            BR_SAY(p->y_label, "error%s%s", unit ? ", " : "", unit ? name_of(unit, quoted) : "");
+            common = unit;
         }
+        if (!common || !unit || strcmp(common, unit) != 0)
+            BR_SAY(p->y_label, "error"); /* not all have the same unit */
         const struct br_series *marks = add_line(f, o, &o->of[i], finest);
         if (marks->pen == BR_PEN_OTHERS && axis == o->of[i].line[0].axis)
             br_append(f->note[1], sizeof f->note[1], "%s%s",
@@ -182,23 +186,6 @@ static void add_bar(struct br_figure *f, double x, double half, const struct br_
     }
 }
 
-/* "p = 1.91, GCI 0.03 %, limit 24.94 [24.93, 24.95]" */
-static void say_value(const struct br_orders_line *line, bool whole, char *text, size_t size)
-{
-    const struct br_gci *g = &line->limits.gci;
-    const struct br_grid_limit *limit = &line->limits.limit;
-    char number[128];
-    strcpy(text, "");
-    if (isfinite(g->fine.index))
-        br_append(text, size, "p = %.2f, GCI %.2g %%", g->order, 100 * g->fine.index);
-    if (isfinite(limit->value.low) && (whole || !*text))
-        br_append(text, size, "%slimit %s", *text ? ", " : "",
-                  br_interval_text(&limit->value, number, sizeof number));
-    else if (!isfinite(limit->value.low))
-        br_append(text, size, "%sno limit: %s", *text ? ", " : "",
-                  limit->sequence ? br_sequence_text(limit->sequence) : "too little is known");
-}
-
 /* The curve through the three finest values, which ends at their limit, as the grid convergence
  * index takes it. */
 static void add_curve(struct br_figure *f, const struct br_gci *g, double h, double value,
@@ -227,7 +214,7 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     name_axis(o->numbers, line->axis, x);
     struct br_panel *p = br_panel_add(f, x, "");
     BR_SAY(p->y_label, "%s%s%s", name, q->unit ? ", " : "", q->unit ? name_of(q->unit, unit) : "");
-    say_value(line, true, p->title, sizeof p->title);
+    say_value(line, p->title, sizeof p->title);
     const bool curve = g->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->low);
     p->margins = true;
     struct br_series *marks = br_series_add(f, curve ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", name);
@@ -282,48 +269,22 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     }
 }
 
-/* Appends a part of a title; of many only the first. */
-enum { MOST = 3 };
-static void say_part(char *title, size_t size, size_t *said, const char *before, const char *name,
-                     const char *text)
+/* "Order of l2: 2.00 [1.99, 2.01]; h1: 1.000 [0.999, 1.001]", "drag: p = 1.91, ...". */
+static void say_title(const struct br_orders *o, char *title, size_t size)
 {
-    if ((*said)++ < MOST)
-        br_append(title, size, "%s%s%s", before, shortened(name, SHORT, (char[NAME]){0}), text);
-    else if (*said == MOST + 1)
-        br_append(title, size, ", ...");
-}
-
-/* "Order in h: l2 2.00, h1 1.00; in k: l2 1.00"; one quantity has its interval, too. */
-static void say_orders(const struct br_orders *o, enum br_axis axis, char *title, size_t size)
-{
+    enum { MOST = 3 }; /* quantities */
+    char text[TITLE];
     size_t said = 0;
-    char before[16], text[72] = " ";
-    snprintf(before, sizeof before, "%sn %s: ", *title ? "; i" : "Order i", br_axis_letters[axis]);
-    for (size_t i = 0; i < o->count; i++) {
-        const struct br_quantity *q = quantity_of(o, &o->of[i]);
-        if (q->is_value || !br_orders_finest(&o->of[i], axis))
+    for (size_t i = 0; i < o->count && said < MOST; i++) {
+        const struct br_quantity_orders *of = &o->of[i];
+        const bool value = quantity_of(o, of)->is_value;
+        const char *before = said ? "; " : value ? "" : "Order of ";
+        if (!of->lines)
             continue;
-        snprintf(text + 1, sizeof text - 1, "%s", order_of(&o->of[i], axis, (char[64]){0}));
-        char *interval = o->count > 1 ? strstr(text, " [") : NULL;
-        if (interval)
-            *interval = '\0';
-        say_part(title, size, &said, said ? ", " : before, q->name, text);
+        br_append(title, size, "%s%s", before, title_of(o, of, text));
+        said++;
     }
-}
-
-/* "drag: p = 1.91, GCI 0.03 %; lift: p = ...". */
-static void say_values(const struct br_orders *o, char *title, size_t size)
-{
-    size_t said = 0;
-    char text[160] = ": ";
-    for (size_t i = 0; i < o->count; i++) {
-        const struct br_quantity *q = quantity_of(o, &o->of[i]);
-        if (!q->is_value || !o->of[i].lines)
-            continue;
-        say_value(br_orders_finest(&o->of[i], o->of[i].line[0].axis), o->count == 1, text + 2,
-                  sizeof text - 2);
-        say_part(title, size, &said, *title ? "; " : "", q->name, text);
-    }
+    br_append(title, size, "%s", o->count > MOST ? "; ..." : "");
 }
 
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)
@@ -333,11 +294,9 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
     BR_SAY(f.note[0], "%s", caption);
     BR_SAY(f.about, "errors, or values, over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
-    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
-        say_orders(orders, axis, f.title, sizeof f.title);
+    say_title(orders, f.title, sizeof f.title);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
         add_errors(&f, orders, axis);
-    }
-    say_values(orders, f.title, sizeof f.title);
     add_costs(&f, orders);
     for (size_t i = 0; i < orders->count; i++)
         for (enum br_axis axis = 0; axis < BR_AXES && f.panels < BR_FIGURE_PANELS; axis++) {

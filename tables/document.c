@@ -349,15 +349,12 @@ static size_t column_of(struct br_document *d, struct br_document_table *t,
     return at;
 }
 
+/* Of texts and counts; numbers are taken to differ. */
 static bool is_same(const struct br_value *a, const struct br_value *b)
 {
-    if (a->kind != b->kind)
+    if (a->kind != b->kind || a->kind == BR_NUMBER || a->kind == BR_TRUTH)
         return false;
-    return a->kind == BR_NUMBER  ? a->number == b->number
-           : a->kind == BR_COUNT ? a->count == b->count
-           : a->kind == BR_TRUTH ? a->truth == b->truth
-           : a->kind == BR_TEXT  ? strcmp(a->text, b->text) == 0
-                                 : true;
+    return a->kind == BR_TEXT ? strcmp(a->text, b->text) == 0 : a->count == b->count;
 }
 
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value)

@@ -307,78 +307,45 @@ static void put_given(struct br_document *d, const struct br_numbers *numbers, s
                    .format = numbers->column[axis]->is_size ? "%.6g" : "%.15g");
 }
 
-/* The flag of a row on the lines of a quantity. */
-static enum br_flag flag_of(const struct br_orders *o, const struct br_quantity_orders *of,
-                            size_t row)
-{
-    const struct br_numbers_row *r = &o->numbers->row[row];
-    enum br_flag flag = r->failure || isnan(r->number[of->quantity]) ? BR_FLAG_FAILED : 0;
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
-        const enum br_flag own = at && at->line ? at->line->observed.point[at->index].flag : 0;
-        if (own && own != BR_FLAG_FAILED) /* the next finer one may have failed */
-            flag = own;
-    }
-    return flag;
-}
-
-/* Puts why a row is left out: "at a floor", or of several quantities "l2: at a floor; h1: ...". */
-static void put_left_out(struct br_document *d, const struct br_orders *o, size_t from, size_t to,
-                         size_t row)
-{
-    const struct br_numbers_row *r = &o->numbers->row[row];
-    const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
-    const enum br_flag first = flag_of(o, &o->of[from], row);
-    const char *text = br_flag_name(first), *between = "";
-    bool same = true;
-    for (size_t i = from; i < to; i++)
-        same = same && flag_of(o, &o->of[i], row) == first;
-    if (r->failure && o->numbers->column[lost] && isnan(r->given[lost])) {
-        char name[64];
-        br_numbers_name(o->numbers, r, lost, name);
-        text = br_format(d, "failed, %s", name);
-    } else if (!same) {
-        text = "";
-        for (size_t i = from; i < to; i++) {
-            const enum br_flag flag = flag_of(o, &o->of[i], row);
-            if (!flag)
-                continue;
-            text = br_format(d, "%s%s%s: %s", text ? text : "", between,
-                             quantity_of(o, &o->of[i])->name, br_flag_name(flag));
-            between = "; ";
-        }
-    }
-    BR_PUT(d, br_text(text), .key = "left_out", .heading = "left out");
-    BR_PUT(d, br_text(r->failure), .key = "failure", .flags = BR_FILES_ONLY | BR_WRAP);
-}
-
-/* Puts a number and its rates. number: of the quantity, where several stand in a row; else 0. */
+/* Puts a number, its rates, and why the row is left out. number: of the quantity, where several
+ * stand in a row; else 0. */
 static void put_number(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of, size_t row, size_t number)
 {
-    char prefix[24] = ""; /* of the keys, which are unique in a table */
     const struct br_numbers *n = o->numbers;
+    const struct br_numbers_row *r = &n->row[row];
     const struct br_quantity *q = quantity_of(o, of);
+    const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
+    const double found = r->number[of->quantity];
+    const char *left_out = r->failure || isnan(found) ? br_flag_name(BR_FLAG_FAILED) : "";
+    char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
     if (number)
         snprintf(prefix, sizeof prefix, "%zu ", number);
-    BR_PUT(d, br_number(n->row[row].number[of->quantity]),
+    BR_PUT(d, br_number(found),
            .key = br_format(d, "%s%s", prefix, q->is_value ? "value" : "error"),
-           .heading = *prefix ? q->name : NULL, .unit = q->unit,
+           .heading = number ? q->name : NULL, .unit = q->unit,
            .format = q->is_value ? "%.9g" : "%.3e");
-    if (n->row[row].repeat)
-        BR_PUT(d, br_number(n->row[row].deviation[of->quantity]),
-               .key = br_format(d, "%sdeviation", prefix), .heading = "deviation", .unit = q->unit,
-               .format = "%.1e");
+    if (r->repeat)
+        BR_PUT(d, br_number(r->deviation[of->quantity]), .key = br_format(d, "%sdeviation", prefix),
+               .heading = "deviation", .unit = q->unit, .format = "%.1e");
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
         const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
+        const enum br_flag flag = line ? line->observed.point[at->index].flag : BR_FLAG_NONE;
         const char *letter = br_axis_letters[axis];
         if (n->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
             BR_PUT(d, br_number(line ? br_orders_rate(line, at->index) : (double)NAN),
                    .key = br_format(d, "%srate_%s", prefix, letter),
                    .heading = both ? br_format(d, "rate in %s", letter) : "rate", .format = "%.2f");
+        if (flag && flag != BR_FLAG_FAILED) /* the next finer one may have failed */
+            left_out = br_flag_name(flag);
     }
+    if (r->failure && n->column[lost] && isnan(r->given[lost])) {
+        br_numbers_name(n, r, lost, name);
+        left_out = br_format(d, "failed, %s", name);
+    }
+    BR_PUT(d, br_text(left_out), .key = br_format(d, "%sleft_out", prefix), .heading = "left out");
 }
 
 /* Puts each row with some quantities: for programs one, for people the rates beside each number. */
@@ -400,7 +367,8 @@ static void put_rows(struct br_document *d, const struct br_orders *o, size_t fr
         put_given(d, o->numbers, row);
         for (size_t i = from; i < to; i++)
             put_number(d, o, &o->of[i], row, people ? i + 1 : 0);
-        put_left_out(d, o, from, to, row);
+        BR_PUT(d, br_text(o->numbers->row[row].failure), .key = "failure",
+               .flags = BR_FILES_ONLY | BR_WRAP);
         for (int axis = 0; axis < BR_AXES && !people; axis++)
             if (o->numbers->column[axis])
                 BR_PUT(d, br_number(o->numbers->row[row].z[axis]),
