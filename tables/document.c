@@ -391,28 +391,24 @@ void br_put_cells(struct br_document *d, size_t count, const struct br_value *va
 void br_put_across(struct br_document *d)
 {
     struct br_document_table *t = open_table(d);
-    char buffer[BR_SHOWN];
+    char text[BR_SHOWN];
     if (!t || t->rows == 0 || t->columns < BR_ACROSS * t->rows)
         return;
     br_put_table(d, "", t->title, BR_FOR_PEOPLE | t->flags);
     for (size_t c = 0; c < t->columns && !d->failure.status; c++) {
-        if (!br_document_is_seen(t, c))
-            continue;
         const struct br_column *of = &t->column[c];
-        const bool head = open_table(d)->columns == 0;
-        if (!head)
+        if (c > 0 && br_document_is_seen(t, c))
             BR_PUT_ROW(d, br_text(br_format(d, "%s%s%s", of->heading, of->unit ? ", " : "",
                                             of->unit ? of->unit : "")));
-        else
+        else if (c == 0)
             br_put_columns(d, &(struct br_column){.key = "", .heading = of->heading}, 1);
-        for (size_t r = 0; r < t->rows; r++) {
-            const struct br_document_cell *cell = &t->row[r].cell[c];
-            const char *shown = br_document_shown(of, cell, buffer);
-            if (head)
-                br_put_columns(
-                    d, &(struct br_column){.key = br_format(d, "%zu", r), .heading = shown}, 1);
+        for (size_t r = 0; r < t->rows && (c == 0 || br_document_is_seen(t, c)); r++) {
+            const char *shown = br_document_shown(of, &t->row[r].cell[c], text);
+            const struct br_column column = {.key = br_format(d, "%zu", r), .heading = shown};
+            if (c == 0)
+                br_put_columns(d, &column, 1);
             else {
-                BR_PUT_CELLS(d, cell->value);
+                BR_PUT_CELLS(d, t->row[r].cell[c].value);
                 br_put_shown(d, "%s", shown);
             }
         }

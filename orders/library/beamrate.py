@@ -357,12 +357,15 @@ class Orders(_Handle):
         """Draws the errors over the size, with the line of each order and its band; hollow: left out. And
         each column of values over the size, with its limit and grid convergence index. Needs matplotlib.
         axes: as many as that takes. Returns them: one, or a list."""
-        groups = [[q for q in self.quantities if q.points and not q.is_value]]
-        groups = [g for g in groups if g] + [[q] for q in self.quantities if q._axes and q.is_value]
+        drawn = [q for q in self.quantities if q.points]
+        errors = [q for q in drawn if not q.is_value]
+        groups = ([errors] if errors else []) + [[q] for q in drawn if q.is_value]
+        if not groups:
+            raise BadInput("there are no three sizes of one line")
         if axes is None:
             import matplotlib.pyplot
             axes = matplotlib.pyplot.subplots(1, len(groups), squeeze=False, figsize=(6.4 * len(groups), 4.8))[1]
-        axes = list(axes.flat if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes])
+        axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
         if len(axes) < len(groups):
             raise BadInput(f"axes: found {len(axes)}, expected a list of {len(groups)}")
         for one, group in zip(axes, groups):
@@ -380,9 +383,10 @@ class Orders(_Handle):
             axes.plot(size, [p.fit.value for p in q.points], color=f"C{i}")
             axes.fill_between(size, [p.fit.low for p in q.points], [p.fit.high for p in q.points],
                               color=f"C{i}", alpha=0.2)
-        axes.set(xscale="log", yscale="log", xlabel="size", ylabel="error", title="\n".join(map(repr, group[:2])),
-                 xticks=size, xticklabels=[f"{s:.3g}" for s in size])
-        axes.minorticks_off()
+        axes.set(xscale="log", yscale="log", xlabel="size", ylabel="error", title="\n".join(map(repr, group[:2])))
+        if len(size) <= 8:
+            axes.set(xticks=size, xticklabels=[f"{s:.3g}" for s in size])
+            axes.minorticks_off()
 
     def _plot_value(self, axes, group):
         letter = "hk"[group[0]._axes[0]]
