@@ -33,28 +33,30 @@ static const char *name_of(const char *name, char markup[MARKUP])
 }
 
 /* "2.00 [1.99, 2.01]": what is found of the order along an axis. */
-static const char *order_of(const struct br_quantity_orders *of, enum br_axis axis, char text[64])
+static const char *order_of(const struct br_quantity_orders *of, enum br_axis axis, char text[96])
 {
     const struct br_orders_line *line = br_orders_finest(of, axis);
     const struct br_estimate *order = &of->answer[axis].order;
-    const bool exponential = line && isfinite(line->observed.factor.low);
     if (order->low > 0 && isfinite(order->value))
         return br_order_text(order, text, 64);
-    return exponential ? "exponential" : "not measurable";
+    if (!line || !isfinite(line->observed.factor.low))
+        return "not measurable";
+    br_order_text(&line->observed.factor, stpcpy(text, "exponential, by "), 64);
+    return text;
 }
 
-/* Appends "p = 1.91, GCI 0.03 %, limit 24.94 [24.93, 24.95]". */
-static void say_value(const struct br_orders_line *line, char *text, size_t size)
+/* Appends "p = 1.91, GCI 0.03 %, limit 24.94 [24.93, 24.95]". g: NULL, of a grid. */
+static void say_value(const struct br_gci *g, const struct br_grid_limit *limit, char *text,
+                      size_t size)
 {
-    const struct br_gci *g = &line->limits.gci;
-    const struct br_grid_limit *limit = &line->limits.limit;
     char number[128];
-    if (isfinite(g->fine.index))
+    if (g && isfinite(g->fine.index))
         br_append(text, size, "p = %.2f, GCI %.2g %%, ", g->order, 100 * g->fine.index);
     if (isfinite(limit->value.low))
         br_append(text, size, "limit %s", br_interval_text(&limit->value, number, sizeof number));
     else
-        br_append(text, size, "no limit: %s", br_sequence_text(limit->sequence));
+        br_append(text, size, limit->sequence ? "no limit: %s" : "limit %s",
+                  br_sequence_text(limit->sequence));
 }
 
 /* "l2: 2.00 [1.99, 2.01]", of two axes "l2: h 2.00 [1.99, 2.01], k 1.00 [0.99, 1.01]": one title in
@@ -62,12 +64,13 @@ static void say_value(const struct br_orders_line *line, char *text, size_t size
 static const char *title_of(const struct br_orders *o, const struct br_quantity_orders *of,
                             char title[TITLE])
 {
-    char text[64];
+    char text[96];
     const char *between = ": ";
     const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
     shortened(quantity_of(o, of)->name, title);
     if (quantity_of(o, of)->is_value) {
-        say_value(br_orders_finest(of, of->line[0].axis), strcat(title, ": "), TITLE);
+        say_value(of->lines == 1 ? &of->line->limits.gci : NULL, &of->limit, strcat(title, ": "),
+                  TITLE);
         return title;
     }
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
@@ -108,19 +111,15 @@ static const struct br_series *add_line(struct br_figure *f, const struct br_ord
     return s.marks;
 }
 
-/* A size has the unit of the source; one over a count has none. */
+/* "mesh size h = 1/n"; a size has the unit of the source, too. */
 static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[96])
 {
-    static const char *const names[] = {"mesh size h", "time step k"};
     const struct br_resolution_column *column = numbers->column[axis];
-    const char *unit = numbers->unit[axis];
-    char quoted[60]; /* the label has room for 96 bytes */
-    if (!column->is_size)
-        snprintf(label, 96, "%s %s%s", names[axis], column->is_volume ? "from " : "= 1/",
-                 column->name);
-    else
-        snprintf(label, 96, "%s%s%s", names[axis], unit ? ", " : "",
-                 unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+    const char *unit = column->is_size ? numbers->unit[axis] : NULL;
+    char states[MARKUP], quoted[MARKUP];
+    name_of(column->is_degree ? "1/(degree + 1)" : column->states, states);
+    snprintf(label, 96, "%s %.40s%s%.40s", axis == BR_AXIS_SPACE ? "mesh size" : "time step",
+             states, unit ? ", " : "", unit ? name_of(unit, quoted) : "");
 }
 
 /* The order of a triangle: a half or whole one where that is near. */
@@ -214,7 +213,9 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     name_axis(o->numbers, line->axis, x);
     struct br_panel *p = br_panel_add(f, x, "");
     BR_SAY(p->y_label, "%s%s%s", name, q->unit ? ", " : "", q->unit ? name_of(q->unit, unit) : "");
-    say_value(line, p->title, sizeof p->title);
+    if (*line->at)
+        BR_SAY(p->title, "at %s: ", line->at);
+    say_value(g, &line->limits.limit, p->title, sizeof p->title);
     const bool curve = g->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->low);
     p->margins = true;
     struct br_series *marks = br_series_add(f, curve ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", name);
@@ -272,7 +273,7 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
 /* "Order of l2: 2.00 [1.99, 2.01]; h1: 1.000 [0.999, 1.001]", "drag: p = 1.91, ...". */
 static void say_title(const struct br_orders *o, char *title, size_t size)
 {
-    enum { MOST = 3 }; /* quantities */
+    enum { MOST = 2 }; /* quantities */
     char text[TITLE];
     size_t said = 0;
     for (size_t i = 0; i < o->count && said < MOST; i++) {

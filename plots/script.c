@@ -137,6 +137,7 @@ static struct page lay_out(const struct br_figure *f)
     const double columns = (l.width - 60) / (double)(key.longest * LETTER + SAMPLE);
     l.key_rows = (size_t)ceil((double)key.entries / fmax(1, floor(columns)));
     l.bottom = l.key_rows ? LINE * (double)l.key_rows + 15 : 0;
+    l.height += fmax(0, l.bottom - 4 * LINE);
     return l;
 }
 

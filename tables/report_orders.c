@@ -46,19 +46,18 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
 
 /* What the order means: "half the mesh size, a quarter of the error". */
 static void say_meaning(struct br_document *d, const struct br_orders *o,
-                        const struct br_quantity_orders *of, enum br_axis axis)
+                        const struct br_quantity_orders *of, enum br_axis axis, double order)
 {
     static const char *const parts[] = {"half", "a quarter", "an eighth", "a sixteenth"};
-    const char *size = o->tied                               ? "h and k"
-                       : o->numbers->column[axis]->is_degree ? "1/p"
-                       : axis == BR_AXIS_SPACE               ? "the mesh size"
-                                                             : "the time step";
+    const char *finer = o->tied                               ? "half h and k"
+                        : o->numbers->column[axis]->is_degree ? "twice the degree"
+                        : axis == BR_AXIS_SPACE               ? "half the mesh size"
+                                                              : "half the time step";
     const bool joint = br_joint_describes(&of->joint);
     const char *number = quantity_of(o, of)->is_value ? "distance to the limit" : "error";
-    const double order = of->answer[axis].order.value, factor = exp2(order);
-    const double whole = round(order);
+    const double factor = exp2(order), whole = round(order);
     const bool is_part = whole >= 1 && whole <= 4 && fabs(factor / exp2(whole) - 1) < 0.02;
-    br_put_more(d, ": half %s, ", size);
+    br_put_more(d, ": %s, ", finer);
     if (is_part)
         br_put_more(d, "%s%s the %s", parts[(int)whole - 1], whole > 1 ? " of" : "", number);
     else
@@ -107,7 +106,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
     if (!none && !br_order_determined(order))
         br_put_more(d, " (not determined)");
     else if (!none)
-        say_meaning(d, o, of, axis);
+        say_meaning(d, o, of, axis, order->value);
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))
@@ -273,6 +272,11 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
                     g->asymptotic);
     }
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
+    const enum br_axis axis = of->line[0].axis;
+    /* Of three values, whose p is all that is known. */
+    if (of->lines == 1 && isnan(of->answer[axis].order.value) && !o->numbers->assumed &&
+        limit->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->value.low))
+        say_meaning(d, o, of, axis, g->order);
 }
 
 /* What follows from the formal order: an index that trusts it. */

@@ -70,7 +70,7 @@ expect 1 "PASS before, FAIL now" beamrate check poisson.yaml --compare new.json
 expect 1 "max: order 1.0" beamrate orders poisson.yaml --out planted
 cp planted/orders.gp whole
 says "mesh size h = 1/n" "the picture"
-says "Order in h: max 1.0" "the picture"
+says "Order of max: 1.0" "the picture"
 # What the page says.
 page=$BEAMRATE_DATA/docs/your-own-solver.md
 sed -n '/^title: Poisson/,/^```/p' "$page" | sed '$d' >printed
