@@ -210,8 +210,8 @@ enum br_status br_session_write(struct br_session *s, const struct br_document_f
 enum br_status br_session_finish(struct br_session *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < s->documents && !s->quiet && !status; i++) {
-        status = br_document_show(stdout, &s->document[i], err);
+    if (!s->quiet && s->documents) {
+        status = br_document_show(stdout, s->document, s->documents, err);
         putchar('\n');
     }
     fflush(stdout); /* before anything can fail; main checks standard output at the end */
