@@ -196,9 +196,9 @@ static const struct br_option rows[] = {
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,
-     "run the commands of the study files, and remember this permission", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
-     .more = "Needed once for each study file with a command, and again when it has changed."},
+     "run the commands of the study files, and read their tables in any folder", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     .more = "Needed each time: a study file with a command is a program. Read it before."},
     {BR_OPT_ALL, "all", 0, NULL, "all bundled scenes", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_TRADE,
      OWN({BR_FOR_TRADE, .help = "try all trials (default: what takes about 10 s a scene)",

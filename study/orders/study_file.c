@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study of any program in a YAML file; each key has a row in `keys`. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -35,6 +36,15 @@ static enum br_status take_text(const struct entry *e)
     return *to ? BR_OK : br_no_memory(e->err, "the study");
 }
 
+static bool is_outside(const char *path, const char *folder)
+{
+    char file[PATH_MAX], in[PATH_MAX];
+    if (!realpath(path, file) || !realpath(folder, in))
+        return true;
+    const size_t length = strcmp(in, "/") == 0 ? 0 : strlen(in);
+    return strncmp(file, in, length) != 0 || file[length] != '/';
+}
+
 /* The path is relative to the folder of the study file. */
 static enum br_status take_table(const struct entry *e)
 {
@@ -45,6 +55,7 @@ static enum br_status take_table(const struct entry *e)
         *path = NULL;
         return br_no_memory(e->err, "the study");
     }
+    e->request->table_is_outside = is_outside(*path, e->request->folder);
     return br_text_load(*path, BR_LONGEST_TABLE, "table", &e->request->table, e->err);
 }
 

@@ -82,6 +82,7 @@ void br_case_judge(struct br_case *c);
 struct br_check {
     /* in; borrowed */
     const char *path;               /* of the scene, for messages */
+    bool no_file;                   /* the path is a word for --run or standard input */
     const char *name;               /* of the scene, or of the study of another program */
     const struct br_scene *scene;   /* NULL: of another program, whose cases are given */
     const struct br_verify *verify; /* NULL likewise */
