@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/verdicts.h"
-#include "solver/clock.h"
 #include "study/scene/file.h"
 
 /* One scene or study file of the command; checks point into it. */

@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/extremes_experiment.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "cli/study_request.h"
-#include "study/base/words.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 

@@ -2,11 +2,11 @@
 /* beamrate figures: Figures 2 to 10 of the paper, and what its section 3.2 says. */
 #include <stdio.h>
 
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "plots/pictures.h"
-#include "study/base/words.h"
 #include "study/paper/paper.h"
 #include "tables/reports.h"
 

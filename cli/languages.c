@@ -19,8 +19,8 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "base/quote.h"
 #include "cli/provenance.h"
-#include "study/base/quote.h"
 #include "study/scene/file.h"
 
 enum { MOST_SCENES = 8192, MOST_WORDS = 512, MOST_OPTIONS = 1024 };

@@ -7,13 +7,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/quote.h"
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/session.h"
 #include "plots/pictures.h"
-#include "study/base/quote.h"
-#include "study/base/words.h"
 #include "study/ranks/ranks.h"
 #include "tables/json_value.h"
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "cli/command.h"
 #include "solver/scene.h"
-#include "study/base/words.h"
 #include "study/grid/study.h"
 
 /* ---- what is refused ---- */

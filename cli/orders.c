@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
-#include "solver/clock.h"
-#include "study/base/words.h"
 #include "study/scene/file.h"
 
 struct run {

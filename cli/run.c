@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/run.h"
+#include "base/clock.h"
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "cli/run.h"
-#include "solver/clock.h"
 #include "study/foresee/prediction.h"
 #include "study/ranks/ranks.h"
 #include "tables/fields_file.h"

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/quote.h"
 #include "cli/command.h"
 #include "cli/output.h"
-#include "study/base/quote.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "tables/scene_format.h"

@@ -3,11 +3,11 @@
 
 #include <string.h>
 
+#include "base/each.h"
+#include "base/quote.h"
+#include "base/text.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "study/base/each.h"
-#include "study/base/quote.h"
-#include "study/base/text.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "tables/reports.h"

@@ -5,13 +5,13 @@
 #ifndef BR_CLI_SESSION_H
 #define BR_CLI_SESSION_H
 
+#include "base/kept.h"
 #include "cli/option.h"
 #include "cli/output.h"
 #include "plots/pictures.h"
 #include "solver/scene.h"
 #include "study/foresee/foreseen.h"
 #include "study/foresee/warnings.h"
-#include "study/kept/kept.h"
 #include "study/trade/split.h"
 #include "study/trade/trial.h"
 #include "study/verify/check.h"

@@ -3,10 +3,11 @@
 
 #include <stdio.h>
 
+#include "base/clock.h"
 #include "cli/progress.h"
 #include "reference/printed.h"
-#include "solver/clock.h"
 #include "study/grid/sweep.h"
+#include "study/kept/kept_study.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 

@@ -4,13 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/quote.h"
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "cli/study_request.h"
 #include "plots/pictures.h"
-#include "study/base/quote.h"
-#include "study/base/words.h"
 #include "study/scene/file.h"
 #include "study/scene/units.h"
 #include "study/trade/split.h"

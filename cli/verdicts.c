@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/quote.h"
 #include "cli/provenance.h"
-#include "study/base/quote.h"
 
 /* Opens, for each format, the file that its option names. */
 static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 #include "study/paper/paper.h"
 
 /* ---- printing ---- */

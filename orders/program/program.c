@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A source of numbers: a program that is run at each resolution. */
+#include <errno.h>
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/each.h"
+#include "base/kept.h"
+#include "orders/request.h"
+
+struct job {
+    const struct br_orders_request *program;
+    struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
+    uint64_t *stamp;            /* of each row's files, when the study began; owned */
+    struct br_kept *kept;
+};
+
+/* ---- finished cells ---- */
+
+/* *text (out, owned): all that a cell's numbers follow from: the command, with the files that it
+ * names, and the readings. Other files that the program reads are not known. */
+static enum br_status text_of(const struct job *j, const struct br_command_words *cell,
+                              size_t repeat, char **text, struct br_error *err)
+{
+    static const char *const kinds[] = {"regex", "json", "csv"};
+    struct br_statement s;
+    br_kept_begin(j->kept, "run", &s);
+    const enum br_status status = br_command_state(&s, cell, err);
+    for (size_t i = 0; i < j->program->readings; i++) {
+        const struct br_reading *reading = &j->program->reading[i];
+        br_state(&s, "name", "%s", reading->name);
+        br_state(&s, kinds[reading->kind], "%s", reading->what);
+        if (reading->file || reading->complaints || reading->last)
+            br_state(&s, "from", "%s%s%s", reading->last ? "the last of " : "",
+                     reading->file         ? "file "
+                     : reading->complaints ? "stderr"
+                                           : "stdout",
+                     reading->file ? reading->file : "");
+    }
+    if (repeat)
+        br_state(&s, "repeat", "%zu", repeat);
+    *text = br_statement_end(&s);
+    return *text || status ? status : br_no_memory(err, "a finished cell");
+}
+
+struct row {
+    struct br_numbers_row *row;
+    size_t numbers;
+};
+
+static void pass_row(struct br_record *r, void *self)
+{
+    const struct row *of = self;
+    size_t numbers = of->numbers;
+    br_record_count(r, &numbers, numbers, numbers);
+    br_record_number(r, &of->row->seconds, 0, DBL_MAX);
+    br_record_number(r, &of->row->wall, 0, DBL_MAX);
+    br_record_or_nan(r, &of->row->bytes, 0, DBL_MAX);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        br_record_or_nan(r, &of->row->given[axis], 0, DBL_MAX);
+    for (size_t i = 0; i < numbers; i++)
+        br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
+}
+
+/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. */
+static enum br_status get_row(const struct job *j, const struct br_command_words *words,
+                              const char *text, size_t i, struct br_error *err)
+{
+    struct row of = {&j->numbers->row[i], j->numbers->quantities};
+    of.row->kept = br_kept_take(j->kept, text, pass_row, &of);
+    if (!of.row->kept && br_run_command(j->program, words, of.row, err))
+        return err->status;
+    if (br_command_stamp(words) != j->stamp[i]) {
+        free(of.row->failure);
+        of.row->kept = false;
+        return br_run_failed(j->program, of.row, err,
+                             "%s, or a file that the command names, changed during the study",
+                             words->program);
+    }
+    return !text || of.row->kept || of.row->failure || br_kept_put(j->kept, text, pass_row, &of)
+               ? BR_OK
+               : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                         j->program->kept, strerror(errno));
+}
+
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
+{
+    const struct job *j = self;
+    const struct br_numbers_row *row = &j->numbers->row[i];
+    struct br_command_words words = {NULL};
+    char *text = NULL;
+    enum br_status status = br_command_split(j->program, row, &words, err);
+    if (!status && j->program->kept)
+        status = text_of(j, &words, row->repeat, &text, err);
+    if (!status)
+        status = get_row(j, &words, text, i, err);
+    free(text);
+    br_command_clear(&words);
+    return status;
+}
+
+/* ---- the grid ---- */
+
+static size_t count_of(const struct br_program_axis *axis)
+{
+    return axis->column ? axis->count : 1;
+}
+
+enum br_status br_program_rows(const struct br_orders_request *p, struct br_numbers *numbers,
+                               struct br_error *err)
+{
+    const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
+    const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
+    const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    for (size_t r = 0; r < rows && !status; r++) {
+        const size_t at[BR_AXES] = {
+            [BR_AXIS_SPACE] = r / repeat / inner, [BR_AXIS_TIME] = r / repeat % inner};
+        struct br_numbers_row *row = &numbers->row[r];
+        row->repeat = repeat > 1 ? r % repeat + 1 : 0;
+        for (int i = 0; i < BR_AXES; i++) {
+            const struct br_resolution_column *column = p->axis[i].column;
+            numbers->listed[i] = numbers->column[i] = column;
+            if (!column)
+                continue;
+            row->listed[i] = row->given[i] = p->axis[i].given[at[i]];
+            row->z[i] = br_numbers_z(column, row->given[i], br_orders_dimension(p, column));
+        }
+    }
+    if (!status)
+        br_numbers_sort(numbers);
+    return status;
+}
+
+static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
+                                      struct br_error *err)
+{
+    const char **name = br_allocate(p->readings, sizeof *name);
+    const struct br_resolution_column *stated[BR_AXES] = {NULL};
+    enum br_status status = name ? BR_OK : br_no_memory(err, "what is read");
+    for (size_t i = 0; i < p->readings && !status; i++) {
+        const char *text = p->reading[i].name;
+        const struct br_resolution_column *size = br_resolution_column_find(text);
+        status = br_reading_check(&p->reading[i], err);
+        const struct br_resolution_column *other = size ? stated[size->axis] : NULL;
+        if (other && !status)
+            status = br_fail(err, BR_BAD_INPUT,
+                             "%s is read beside %s, expected one resolution of an axis", text,
+                             other->name);
+        if (size)
+            numbers->column[size->axis] = stated[size->axis] = size;
+        else if (!status) {
+            name[numbers->quantities] = text;
+            status = br_numbers_add_quantity(numbers, text, NULL, br_lists(p->values, text), err);
+        }
+    }
+    const struct br_resolution_column *mesh = numbers->column[BR_AXIS_SPACE];
+    if (mesh) {
+        numbers->dimension = br_orders_dimension(p, mesh);
+        numbers->assumed = mesh->is_volume && p->assumed_dimension;
+        if (numbers->assumed)
+            numbers->unsettled =
+                "h follows from numbers of unknowns or cells: state the dimension of "
+                "the mesh (--dimension, or 'dimension:')";
+    }
+    if (!status && !numbers->quantities)
+        status = br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
+    if (!status)
+        status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
+    free(name);
+    return status;
+}
+
+/* Takes the sizes that the runs state. A run that failed states none: it stands where its list puts
+ * it, times what the run before it has; where all failed, where its list puts it. */
+static void take_stated_sizes(const struct br_orders_request *p, struct br_numbers *n, int axis)
+{
+    const struct br_resolution_column *stated = n->column[axis], *list = p->axis[axis].column;
+    double factor = NAN;
+    for (size_t i = n->rows; i-- > 0 && stated && stated != list;) {
+        const struct br_numbers_row *row = &n->row[i];
+        const double z = br_numbers_z(stated, row->given[axis], n->dimension);
+        factor = isnan(z) ? factor : z / (list ? row->z[axis] : 1);
+    }
+    n->column[axis] = stated = isnan(factor) ? list : stated;
+    for (size_t i = 0; i < n->rows && stated; i++) {
+        struct br_numbers_row *row = &n->row[i];
+        const double listed = list ? row->z[axis] : 1;
+        double z = stated == list ? listed : br_numbers_z(stated, row->given[axis], n->dimension);
+        factor = isnan(z) ? factor : z / listed;
+        row->z[axis] = z = isnan(z) ? listed * factor : z;
+        if (stated == list)
+            row->given[axis] = row->listed[axis];
+    }
+}
+
+/* Joins the runs of each cell: their mean, with its standard deviation. One that failed fails the
+ * cell. */
+static void join_repeated(struct br_numbers *n, size_t repeat)
+{
+    const size_t rows = n->rows;
+    n->rows = 0;
+    for (size_t first = 0; first < rows; first += repeat) {
+        struct br_numbers_row row = n->row[first];
+        for (size_t q = 0; q < n->quantities; q++) {
+            double mean = 0, squares = 0;
+            for (size_t i = 0; i < repeat; i++)
+                mean += n->row[first + i].number[q] / (double)repeat;
+            for (size_t i = 0; i < repeat; i++)
+                squares += pow(n->row[first + i].number[q] - mean, 2);
+            row.deviation[q] = sqrt(squares / (double)(repeat - 1) / (double)repeat);
+            row.number[q] = mean;
+        }
+        for (size_t i = 1; i < repeat; i++) {
+            struct br_numbers_row *other = &n->row[first + i];
+            row.seconds += other->seconds;
+            row.wall += other->wall;
+            row.bytes = fmax(row.bytes, other->bytes);
+            row.kept &= other->kept;
+            if (!row.failure) {
+                row.failure = other->failure;
+                other->failure = NULL;
+            }
+            free(other->number);
+            free(other->failure);
+        }
+        row.repeat = repeat;
+        row.seconds /= (double)repeat;
+        row.wall /= (double)repeat;
+        n->row[n->rows++] = row;
+    }
+}
+
+/* After all runs. */
+static void finish_rows(const struct br_orders_request *p, struct br_numbers *n)
+{
+    for (int axis = 0; axis < BR_AXES; axis++)
+        take_stated_sizes(p, n, axis);
+    if (p->repeat > 1)
+        join_repeated(n, (size_t)p->repeat);
+}
+
+/* Refuses a command that is not valid at any resolution, before one is run. */
+static enum br_status check_commands(struct job *j, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    j->stamp = br_allocate(j->numbers->rows, sizeof *j->stamp);
+    if (!j->stamp)
+        return br_no_memory(err, "the runs");
+    for (size_t i = 0; i < j->numbers->rows && !status; i++) {
+        struct br_command_words words = {NULL};
+        status = br_command_split(j->program, &j->numbers->row[i], &words, err);
+        if (!status)
+            j->stamp[i] = br_command_stamp(&words);
+        br_command_clear(&words);
+    }
+    return status;
+}
+
+/* Cells are kept for all versions of beamrate. */
+static enum br_status open_kept(struct job *j, struct br_error *err)
+{
+    const char *folder = j->program->kept;
+    const int length = snprintf(j->kept->folder, sizeof j->kept->folder, "%s", folder);
+    const bool fits = (size_t)length < sizeof j->kept->folder;
+    if (fits && (mkdir(folder, 0777) == 0 || errno == EEXIST))
+        return BR_OK;
+    return br_fail(err, BR_IO, "%.900s: %s", folder, strerror(fits ? errno : ENAMETOOLONG));
+}
+
+enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
+                              struct br_error *err)
+{
+    struct br_kept kept = {.take = !program->anew};
+    struct job j = {.program = program, .numbers = numbers, .kept = &kept};
+    *numbers = (struct br_numbers){.rows = 0};
+    if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
+        return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
+    if (program->readings == 0)
+        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
+    bool failed = br_program_rows(program, numbers, err) ||
+                  make_quantities(program, numbers, err) || check_commands(&j, err) ||
+                  (program->kept && open_kept(&j, err));
+    const struct br_each each = {.count = numbers->rows,
+                                 .threads = program->jobs,
+                                 .observer = program->observer,
+                                 .turn = take_turn,
+                                 .self = &j};
+    failed = failed || br_each(&each, err);
+    free(j.stamp);
+    if (failed)
+        br_numbers_clear(numbers);
+    else
+        finish_rows(program, numbers);
+    return failed ? err->status : BR_OK;
+}
