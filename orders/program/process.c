@@ -8,13 +8,14 @@
  * locks, which another thread may hold for ever. */
 #include "orders/program/process.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
-#include <glob.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
@@ -22,6 +23,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#define RUN "beamrate-run-" /* names of folders begin so */
 enum { ABOVE_SHELLS = 10 /* scripts use the files below it */ };
 
 static void pause_briefly(void)
@@ -63,28 +65,36 @@ static int hold(const char *path, bool *locked)
     return file;
 }
 
-void br_run_folders_clean(const char *where)
+const char *br_temporary(void)
 {
-    char pattern[PATH_MAX];
-    glob_t old = {0};
-    snprintf(pattern, sizeof pattern, "%s/beamrate-run-??????", where);
-    const bool found = glob(pattern, GLOB_NOSORT, NULL, &old) == 0;
-    for (size_t i = 0; found && i < old.gl_pathc; i++) {
-        bool unused;
-        struct stat info;
-        const int file = hold(old.gl_pathv[i], &unused);
-        if (unused && fstat(file, &info) == 0 && info.st_uid == geteuid() &&
-            time(NULL) - info.st_mtim.tv_sec > 60) /* a new one is not locked for a moment */
-            br_remove_folder(old.gl_pathv[i]);
-        close_if_open(file);
-    }
-    globfree(&old);
+    const char *set = getenv("TMPDIR");
+    return set && *set ? set : "/tmp";
 }
 
-int br_run_folder_make(const char *where, struct br_run_folder *f)
+void br_run_folders_clean(void)
+{
+    char path[PATH_MAX];
+    DIR *all = opendir(br_temporary());
+    for (struct dirent *old; all && (old = readdir(all));) {
+        bool locked = false;
+        struct stat info;
+        const int length = snprintf(path, sizeof path, "%s/%s", br_temporary(), old->d_name);
+        if (strncmp(old->d_name, RUN, strlen(RUN)) != 0 || length >= (int)sizeof path)
+            continue;
+        const int file = hold(path, &locked);
+        if (locked && fstat(file, &info) == 0 && info.st_uid == geteuid() &&
+            time(NULL) - info.st_mtim.tv_sec > 60) /* a new one is not locked for a moment */
+            br_remove_folder(path);
+        close_if_open(file);
+    }
+    if (all)
+        closedir(all);
+}
+
+int br_run_folder_make(struct br_run_folder *f)
 {
     bool locked; /* not every file system has locks */
-    const int length = snprintf(f->path, sizeof f->path, "%s/beamrate-run-XXXXXX", where);
+    const int length = snprintf(f->path, sizeof f->path, "%s/" RUN "XXXXXX", br_temporary());
     f->file = -1;
     if (length >= (int)sizeof f->path)
         return ENAMETOOLONG;

@@ -15,15 +15,18 @@ struct br_run_folder {
     int file; /* open, and locked where the file system has locks */
 };
 
-/* Makes a new folder (out) in `where`. Returns an errno; 0: it is there, so remove it. */
-int br_run_folder_make(const char *where, struct br_run_folder *folder);
+/* The folder for these folders. */
+const char *br_temporary(void);
+
+/* Makes a new folder (out). Returns an errno; 0: it is there, so remove it. */
+int br_run_folder_make(struct br_run_folder *folder);
 
 /* Removes the folder with all that is in it, and closes it. Returns true and its path (out), which
  * a program may have changed, where it stays: it is too deep, or closed to writers, or moved. */
 bool br_run_folder_stays(struct br_run_folder *folder, char path[PATH_MAX]);
 
-/* Removes the folders of runs in `where` that nobody has locked: killed processes left them. */
-void br_run_folders_clean(const char *where);
+/* Removes the folders of runs that nobody has locked: killed processes left them. */
+void br_run_folders_clean(void);
 
 /* Removes a folder with all files in it. Processes that have just been killed may still write for a
  * moment, so it tries several times. */

@@ -9,6 +9,7 @@
 
 #include "base/each.h"
 #include "base/kept.h"
+#include "orders/program/process.h"
 #include "orders/request.h"
 
 struct job {
@@ -65,37 +66,40 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
-/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. */
+/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. A row is
+ * of the files with which the study began, or it has failed. */
 static enum br_status get_row(const struct job *j, const struct br_command_words *words,
                               const char *text, size_t i, struct br_error *err)
 {
     struct row of = {&j->numbers->row[i], j->numbers->quantities};
     of.row->kept = br_kept_take(j->kept, text, pass_row, &of);
-    if (!of.row->kept && br_run_command(j->program, words, of.row, err))
-        return err->status;
-    if (br_command_stamp(words) != j->stamp[i]) {
-        free(of.row->failure);
+    if (!of.row->kept)
+        br_run_command(j->program, words, of.row, err);
+    if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
         of.row->kept = false;
         return br_run_failed(j->program, of.row, err,
                              "%s, or a file that the command names, changed during the study",
                              words->program);
     }
-    return !text || of.row->kept || of.row->failure || br_kept_put(j->kept, text, pass_row, &of)
-               ? BR_OK
-               : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
-                         j->program->kept, strerror(errno));
+    if (!err->status && text && !of.row->kept && !of.row->failure &&
+        !br_kept_put(j->kept, text, pass_row, &of))
+        br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s", j->program->kept,
+                strerror(errno));
+    return err->status;
 }
 
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
-    const struct br_numbers_row *row = &j->numbers->row[i];
+    struct br_numbers_row *row = &j->numbers->row[i];
     struct br_command_words words = {NULL};
     char *text = NULL;
     enum br_status status = br_command_split(j->program, row, &words, err);
-    if (!status && j->program->kept)
+    if (status == BR_BAD_INPUT) /* it was valid before: its program is gone */
+        status = br_run_failed(j->program, row, err, "%s", err->message);
+    else if (!status && j->program->kept)
         status = text_of(j, &words, row->repeat, &text, err);
-    if (!status)
+    if (!status && !row->failure)
         status = get_row(j, &words, text, i, err);
     free(text);
     br_command_clear(&words);
@@ -289,6 +293,8 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
                                  .observer = program->observer,
                                  .turn = take_turn,
                                  .self = &j};
+    if (!failed)
+        br_run_folders_clean();
     failed = failed || br_each(&each, err);
     free(j.stamp);
     if (failed)

@@ -188,16 +188,20 @@ static void last_lines(int file, char shown[TAIL])
 enum br_status br_run_failed(const struct br_orders_request *request, struct br_numbers_row *row,
                              struct br_error *err, const char *format, ...)
 {
+    char *why;
     va_list arguments;
     for (size_t i = 0; i < request->readings; i++)
         row->number[i] = (double)NAN;
     for (int axis = 0; axis < BR_AXES; axis++)
         row->given[axis] = NAN;
     va_start(arguments, format);
-    if (vasprintf(&row->failure, format, arguments) < 0)
-        row->failure = NULL;
+    if (vasprintf(&why, format, arguments) < 0)
+        why = NULL;
     va_end(arguments);
-    return row->failure ? BR_OK : br_no_memory(err, "why a run failed");
+    free(row->failure);
+    row->failure = why;
+    err->status = BR_OK;
+    return why ? BR_OK : br_no_memory(err, "why a run failed");
 }
 
 /* why: what was wrong with its numbers. */
@@ -309,10 +313,9 @@ enum br_status br_run_command(const struct br_orders_request *request,
                               struct br_error *err)
 {
     struct run r = {.request = request, .words = words, .process.output = {-1, -1}};
-    const char *set = getenv("TMPDIR"), *where = set && *set ? set : "/tmp";
-    const int failure = br_run_folder_make(where, &r.folder);
+    const int failure = br_run_folder_make(&r.folder);
     if (failure)
-        return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", where,
+        return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", br_temporary(),
                        strerror(failure));
     enum br_status status = start(&r, err);
     if (!status) {
