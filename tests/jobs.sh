@@ -58,7 +58,7 @@ job() {
             cd work || exit 99
             PATH=$(tr '\n' : <../github_path)$folder/bin:$PATH
             GITHUB_ACTION_PATH=$folder/release/beamrate-0 GITHUB_PATH=$folder/github_path RUNNER_TEMP=$folder/runner \
-                GITHUB_STEP_SUMMARY=$folder/summary XDG_STATE_HOME=$folder/state CHECK='poisson.yaml --trust' \
+                GITHUB_STEP_SUMMARY=$folder/summary CHECK='poisson.yaml --trust' \
                 BEAMRATE_ARCHIVE=file://$folder/beamrate.tar.gz \
                 BEAMRATE_SHA256=$(sha256sum <../beamrate.tar.gz | cut -d' ' -f1) bash -eo pipefail "../$step"
         ) >>log 2>&1 || code=$?
