@@ -108,17 +108,17 @@ static enum br_status refuse_shell(const char *command, const char *here, const 
                                    struct br_error *err)
 {
     char shown[SHOWN], folder[SHOWN];
-    br_quoted(shown, sizeof shown, &br_for_text, command);
-    br_quoted(folder, sizeof folder, &br_for_text, here);
-    return strchr(command, '\'')
-               ? br_fail(err, BR_BAD_INPUT,
-                         "the command has %s, and no shell is used: put the command into a script, "
-                         "or the sign into quotes",
-                         what)
-               : br_fail(
-                     err, BR_BAD_INPUT,
-                     "the command has %s, and no shell is used; to use one: sh -c 'cd %s && %s'",
-                     what, folder, shown);
+    const char *quote = strchr(here, ' ') ? "\"" : "";
+    if (strchr(command, '\''))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "the command has %s, and no shell is used: put the command into a script, or "
+            "the sign into quotes",
+            what);
+    return br_fail(err, BR_BAD_INPUT,
+                   "the command has %s, and no shell is used; to use one: sh -c 'cd %s%s%s && %s'",
+                   what, quote, br_quoted(folder, sizeof folder, &br_for_text, here), quote,
+                   br_quoted(shown, sizeof shown, &br_for_text, command));
 }
 
 static enum br_status refuse_words(const char *command, const char *here, int failure,

@@ -152,7 +152,7 @@ void br_library_watch_begin(struct br_library_watch *w, const struct beamrate_ob
 {
     w->theirs = observer;
     w->ours =
-        observer ? (struct br_observer){progress, stop, w, preparing} : (struct br_observer){0};
+        observer ? (struct br_observer){progress, stop, w, preparing, NULL} : (struct br_observer){0};
     atomic_init(&w->stopped, false);
     pthread_mutex_init(&w->one_at_a_time, NULL);
 }
