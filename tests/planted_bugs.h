@@ -1409,6 +1409,8 @@ static const struct planted_bug planted_bugs[] = {
      "    if (!text)\n"},
     {"group_outlives_this_process", "lost", "orders/program/process.c",
      "tests/test_program test_no_survivors", "fcntl(held, F_SETOWN, -getpid()) == 0 &&", ""},
+    {"handlers_of_libraries_are_run", "lost", "orders/program/process.c",
+     "tests/test_program test_no_foreign_handlers", "p->id = _Fork();", "p->id = fork();"},
     {"folder_that_stays_is_not_named", "lost", "orders/program/process.c",
      "tests/test_program test_folders_that_stay", "info.st_nlink > 0;", "info.st_nlink > 99;"},
     {"old_folders_stay", "lost", "orders/program/process.c",

@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <regex.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -969,6 +970,28 @@ TEST(test_another_user)
     assert_non_null(strstr(warned, group));
     kill(id, SIGKILL);
     assert_int_equal(waitpid(id, NULL, 0), id);
+}
+
+/* Libraries (OpenBLAS) have handlers of fork that wait for each other's locks. */
+static int foreign_handlers;
+
+static void count_handler(void)
+{
+    foreign_handlers++;
+}
+
+TEST(test_no_foreign_handlers)
+{
+    assert_int_equal(pthread_atfork(count_handler, count_handler, count_handler), 0);
+    const struct br_orders_request p = on_grid(2);
+    run(&p);
+    assert_int_equal(foreign_handlers, 0);
+    const pid_t child = fork(); /* they are there */
+    if (child == 0)
+        _exit(foreign_handlers != 2);
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
 }
 
 /* ---- a program that changes ---- */
