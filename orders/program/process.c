@@ -118,13 +118,15 @@ bool br_run_folder_stays(struct br_run_folder *f, char path[PATH_MAX])
 
 /* ---- in the program's process, until it is the program ---- */
 
-/* Asks for SIGKILL to the group when the other end of the pipe closes. */
+/* Asks for SIGKILL to the group when the other end of the pipe closes. Where the kernel has no such
+ * signal, the program alone dies with its parent. */
 static bool die_with(int alive, pid_t parent)
 {
     const int held = fcntl(alive, F_DUPFD, ABOVE_SHELLS); /* not closed by execve */
-    return setpgid(0, 0) == 0 && held >= 0 && fcntl(held, F_SETOWN, -getpid()) == 0 &&
-           fcntl(held, F_SETSIG, SIGKILL) == 0 && fcntl(held, F_SETFL, O_ASYNC) == 0 &&
-           prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent;
+    const bool grouped = setpgid(0, 0) == 0;
+    if (held >= 0 && fcntl(held, F_SETOWN, -getpid()) == 0 && fcntl(held, F_SETSIG, SIGKILL) == 0)
+        fcntl(held, F_SETFL, O_ASYNC);
+    return grouped && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent;
 }
 
 /* Signals that beamrate ignores would stay ignored. */

@@ -235,28 +235,14 @@ static enum br_status load(int file, char **text, size_t *length, struct br_erro
     struct stat info;
     const bool plain = file >= 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode);
     const size_t size = plain ? (size_t)info.st_size : 0;
-    *length = 0;
+    ssize_t got = 1;
     if (size > MOST_PRINTED)
         return br_fail(why, BR_BAD_INPUT, "a file of it has more than %d MiB", MOST_PRINTED >> 20);
     if (!(*text = br_allocate(size + 1, 1)))
         return br_no_memory(why, "a program's output");
-    for (ssize_t got = 1; *length < size && got > 0; *length += got > 0 ? (size_t)got : 0)
+    for (; *length < size && got > 0; *length += got > 0 ? (size_t)got : 0)
         got = pread(file, *text + *length, size - *length, (off_t)*length);
-    return *length == size ? BR_OK : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
-}
-
-/* Loads what a reading looks into. name: of a file in the folder of the run; NULL: what it printed.
- */
-static enum br_status load_for(const struct run *r, const struct br_reading *reading,
-                               const char *name, char **text, size_t *length, struct br_error *why)
-{
-    if (!name)
-        return load(r->process.output[reading->complaints], text, length, why);
-    const int file = openat(r->folder.file, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-    const enum br_status status = load(file, text, length, why);
-    if (file >= 0)
-        close(file);
-    return status;
+    return got >= 0 ? BR_OK : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
 }
 
 /* Reads the numbers of a run: its quantities, and the resolutions that it states itself. */
@@ -271,8 +257,13 @@ static enum br_status read_numbers(const struct run *r, struct br_numbers_row *r
         double *number = size ? &row->given[size->axis] : &row->number[quantity++];
         char *text = NULL;
         size_t length = 0;
-        status = load_for(r, reading, reading->file ? r->words->file[file++] : NULL, &text, &length,
-                          why);
+        const int own = !reading->file ? -1
+                                       : openat(r->folder.file, r->words->file[file++],
+                                                O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+        status =
+            load(reading->file ? own : r->process.output[reading->complaints], &text, &length, why);
+        if (own >= 0)
+            close(own);
         if (!status)
             status = br_reading_take(q, i, text, length, number, why);
         if (!status && size && !(*number > 0))

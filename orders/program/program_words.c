@@ -10,23 +10,13 @@
 #include <wordexp.h>
 
 #include "base/quote.h"
+#include "base/words.h"
 #include "orders/request.h"
 
 enum {
     NUMBER = 32, /* bytes of a resolution's text, with the zero at the end */
     SHOWN = 200  /* bytes of foreign text in a message */
 };
-
-/* Prints counts without a point, and sizes with as few digits as they need. */
-static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
-{
-    snprintf(text, NUMBER, "%.0f", x);
-    for (int digits = 1; column->is_size && digits <= 17; digits++) {
-        snprintf(text, NUMBER, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
-    }
-}
 
 struct split {
     const struct br_orders_request *request;
@@ -55,7 +45,11 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
         if (!column)
             continue;
         if (strncmp(s->rest + 1, column->name, length) == 0 && s->rest[1 + length] == '}') {
-            print_number(column, s->row->given[i], *to);
+            const double x = s->row->given[i];
+            if (column->is_size)
+                br_shortest(x, *to, NUMBER);
+            else /* counts have no exponent */
+                snprintf(*to, NUMBER, "%.0f", x);
             *to += strlen(*to);
             s->rest += length + 2;
             s->used[i] = true;
