@@ -92,7 +92,7 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
     struct br_numbers_row *row = &j->numbers->row[i];
-    struct br_command_words words = {NULL};
+    struct br_command_words words = {.word = NULL};
     char *text = NULL;
     enum br_status status = br_command_split(j->program, row, &words, err);
     if (status == BR_BAD_INPUT) /* it was valid before: its program is gone */
@@ -255,7 +255,7 @@ static enum br_status check_commands(struct job *j, struct br_error *err)
     if (!j->stamp)
         return br_no_memory(err, "the runs");
     for (size_t i = 0; i < j->numbers->rows && !status; i++) {
-        struct br_command_words words = {NULL};
+        struct br_command_words words = {.word = NULL};
         status = br_command_split(j->program, &j->numbers->row[i], &words, err);
         if (!status)
             j->stamp[i] = br_command_stamp(&words);
