@@ -184,9 +184,9 @@ bool br_process_has_ended(const struct br_process *p)
     return failed ? errno != EINTR : info.si_pid != 0;
 }
 
-void br_process_signal(const struct br_process *p, int number)
+bool br_process_signal(const struct br_process *p, int number)
 {
-    kill(-p->id, number);
+    return kill(-p->id, number) == 0 || errno != EPERM;
 }
 
 struct br_process_end br_process_end(struct br_process *p)

@@ -54,8 +54,8 @@ int br_process_start(struct br_process *process);
 
 bool br_process_has_ended(const struct br_process *process);
 
-/* Sends a signal to the group. */
-void br_process_signal(const struct br_process *process, int number);
+/* Sends a signal to the group. False: all of it is another user's. */
+bool br_process_signal(const struct br_process *process, int number);
 
 /* How a program ended. */
 struct br_process_end {

@@ -21,7 +21,9 @@
 enum {
     TAIL = 301,             /* bytes of a failed run's last lines, with the zero at the end */
     MOST_PRINTED = 1 << 24, /* bytes of a run */
-    GRACE = 2               /* s from SIGTERM to SIGKILL, and from that until nobody waits */
+    GRACE = 2,              /* s from SIGTERM to SIGKILL, and from that until nobody waits for what
+                               cannot be killed, */
+    PATIENCE = 30           /* or for what does not end: a device or a disk holds it */
 };
 
 enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
@@ -113,8 +115,10 @@ static void watch(struct run *r)
 {
     const double begun = br_seconds();
     double asked = INFINITY; /* when it was asked to end, s */
+    bool ours = true;
     struct timespec pause = {.tv_nsec = 1000000};
-    while (!br_process_has_ended(&r->process) && br_seconds() - asked < 2 * GRACE) {
+    while (!br_process_has_ended(&r->process) &&
+           br_seconds() - asked < (ours ? PATIENCE : 2 * GRACE)) {
         const double now = br_seconds();
         r->end = end_of(r, now - begun);
         const bool first = r->end && isinf(asked);
@@ -122,7 +126,7 @@ static void watch(struct run *r)
         if (r->end == TOO_LONG && first) /* not twice: some programs then do not clean up */
             br_process_signal(&r->process, SIGTERM);
         else if (r->end && (r->end != TOO_LONG || now - asked > GRACE))
-            br_process_signal(&r->process, SIGKILL);
+            ours = br_process_signal(&r->process, SIGKILL);
         nanosleep(&pause, NULL);
         if (pause.tv_nsec < 16000000)
             pause.tv_nsec *= 2;
