@@ -149,7 +149,8 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
                                   const struct br_check_findings *findings, bool whole,
                                   struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(NULL, session->threads);
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, session->threads);
     struct br_document *d = &session->document[session->documents - 1];
     struct br_check_findings all = *findings;
     if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
@@ -226,7 +227,8 @@ struct br_check br_study_file_check(struct br_study_file *f, const struct br_opt
     r->jobs = (int)br_option_number(o, BR_OPT_THREADS, 0);
     r->anew = !br_option_given(o, BR_OPT_RESUME);
     const bool read = !r->command && strcmp(r->path, "standard input") != 0;
-    struct br_check check = {.path = r->path,
+    struct br_check check = {.of_program = true,
+                             .path = r->path,
                              .no_file = !read && !r->folder,
                              .name = r->title     ? r->title
                                      : r->command ? r->command

@@ -187,6 +187,8 @@ enum br_status br_orders_request_reading(struct br_orders_request *request, cons
 
 /* ---- study files ---- */
 
+enum { BR_LONGEST_STUDY = 1 << 20 }; /* bytes */
+
 /* Whether a YAML text is a study file: it has 'run' or 'table' at the top; a scene has neither. */
 bool br_is_study_file(const char *text);
 
