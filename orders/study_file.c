@@ -153,7 +153,7 @@ static enum br_status take_scalar(const struct br_yaml *r, const struct key *key
     const size_t line = br_yaml_line(value);
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_yaml_refuse(r, key->pairs ? br_yaml_line(name) : line, key->name, "expected %s",
-                               key->pairs ? "names with a text each" : "one text");
+                              key->pairs ? "names with a text each" : "one text");
     key->take(&(struct entry){request, key, r->path, br_yaml_text(name), br_yaml_text(value), line,
                               &inner});
     return br_yaml_pass_on(r, line, key->name, &inner);
@@ -192,7 +192,7 @@ static enum br_status take_entry(const struct br_yaml *r, const yaml_node_pair_t
                              : take_scalar(r, &keys[i], name, value, request);
     }
     return br_yaml_refuse(r, br_yaml_line(name), text, "unknown key, %s",
-                           br_expected(text, names, KEYS, expected));
+                          br_expected(text, names, KEYS, expected));
 }
 
 /* Refuses keys of runs in a study of a table. */
@@ -202,7 +202,7 @@ static enum br_status check_table(const struct br_yaml *r, const bool seen[KEYS]
     for (size_t i = 0; i < KEYS; i++)
         if (seen[i] && keys[i].of_runs)
             return br_yaml_refuse(r, br_yaml_line(root), keys[i].name,
-                                   "is given beside 'table', expected beside 'run' only");
+                                  "is given beside 'table', expected beside 'run' only");
     return BR_OK;
 }
 
@@ -219,12 +219,12 @@ static enum br_status take_study(const struct br_yaml *r, void *self)
         status = take_entry(r, p, seen, request);
     if (!status && !request->command == !request->table)
         status = br_yaml_refuse(r, br_yaml_line(root), "study",
-                                 "expected 'run' or 'table', one of the two");
+                                "expected 'run' or 'table', one of the two");
     if (!status && request->table)
         status = check_table(r, seen);
     if (!status && request->command && request->readings == 0)
         status = br_yaml_refuse(r, br_yaml_line(root), "read",
-                                 "missing, expected what is read of the output");
+                                "missing, expected what is read of the output");
     return status;
 }
 
