@@ -79,9 +79,9 @@ static const struct br_option rows[] = {
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,
-     "run the commands of the study files, and remember this permission", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
-     .more = "Needed once for each study file with a command, and again when it has changed."},
+     "run the commands of the study files, and read their tables in any folder", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     .more = "Needed each time: a study file with a command is a program. Read it before."},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_JSON, "json", 0, "FILE", "all results, for programs and for --compare", NULL,

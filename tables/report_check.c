@@ -42,7 +42,7 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
                           .group = check->name,
                           .name = name_of(c, name),
                           .message = c->verdict == BR_PASS ? c->note : c->reason,
-                          .file = check->path,
+                          .file = check->no_file ? NULL : check->path,
                           .line = c->expected.line,
                           /* the orders of a study share its marches */
                           .seconds = check->seconds / (double)check->count,
@@ -151,12 +151,13 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     for (size_t i = 0; i < f->count; i++) {
         const struct br_check *check = &f->checks[i];
         if (check->failure.status)
-            br_put_verdict(d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
-                                                            .group = check->name,
-                                                            .name = "verify",
-                                                            .message = check->failure.message,
-                                                            .file = check->path,
-                                                            .seconds = check->seconds});
+            br_put_verdict(
+                d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
+                                                 .group = check->name,
+                                                 .name = "verify",
+                                                 .message = check->failure.message,
+                                                 .file = check->no_file ? NULL : check->path,
+                                                 .seconds = check->seconds});
         for (size_t j = 0; j < check->count; j++) {
             const struct br_case *c = &check->cases[j];
             const struct br_expectation *e = &c->expected;
