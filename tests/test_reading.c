@@ -338,7 +338,7 @@ TEST(test_large_tables)
     refuse(table_of(2, 40000), "t:1: found more than 1000 columns");
 }
 
-static bool stop(__attribute__((unused)) void *self)
+static bool always(__attribute__((unused)) void *self)
 {
     return true;
 }
@@ -347,7 +347,7 @@ TEST(test_interrupted)
 {
     struct br_fields fields;
     struct br_error err = {0};
-    const struct br_observer observer = {.stop = stop};
+    const struct br_observer observer = {.stop = always};
     assert_int_equal(br_fields_read("h,e\n1,2\n", "t", &observer, &fields, &err), BR_INTERRUPTED);
     br_fields_clear(&fields);
 }

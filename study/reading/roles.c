@@ -944,11 +944,11 @@ static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_
 static enum br_status settle_repeats(struct br_roles *r, struct run *run, size_t count,
                                      struct br_error *err)
 {
-    size_t repeats = 0, sizes = 0, least = count, at = 0;
+    size_t repeats = 0, least = count, at = 0;
     double scatter = 0;
     bool numbered = false;
     qsort(run, count, sizeof *run, by_run);
-    for (size_t first = 0, end; first < count; first = end, sizes++) {
+    for (size_t first = 0, end; first < count; first = end) {
         for (end = first + 1; end < count && is_one_size(&run[first], &run[end]);)
             end++;
         least = end - first < least ? end - first : least;
