@@ -146,10 +146,13 @@ static enum br_status refuse_column(const struct br_roles *r, const char *option
 static enum br_status take_item(struct br_roles *r, const char *item, size_t length,
                                 struct br_error *err)
 {
-    const char *equals = item + length;
+    const char *equals = item + length, *inside = item, *quoted = br_list_quoted(&inside);
     while (equals > item && *equals != '=')
         equals--;
-    const size_t size = (size_t)(equals - item), rest = length - size;
+    const size_t rest = length - (size_t)(equals - item);
+    const bool in_quotes = quoted && quoted == equals;
+    item = in_quotes ? inside : item;
+    const size_t size = (size_t)(equals - item) - in_quotes;
     if (!size || rest < 2)
         return br_fail(err, BR_BAD_INPUT,
                        "--column: found '%.*s', expected COLUMN=NAME, as in dx=h or 1=h",
