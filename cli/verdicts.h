@@ -5,7 +5,7 @@
 #define BR_CLI_VERDICTS_H
 
 #include "cli/session.h"
-#include "study/orders/request.h"
+#include "orders/request.h"
 #include "study/verify/comparison.h"
 #include "tables/reports.h"
 

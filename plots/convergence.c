@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "plots/pictures.h"
 #include "solver/scene.h"
-#include "study/base/words.h"
 #include "study/fit/report.h"
 
 /* Entry i of the study's list for an axis: n over h, steps over k. */

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <sys/types.h>
 
-#include "solver/status.h"
+#include "base/status.h"
 
 struct br_named_method;
 struct br_named_methods;

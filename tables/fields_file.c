@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 
 const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES] = {
     {"u", BR_AXIAL, false},       {"u_t", BR_AXIAL, false},

@@ -118,7 +118,7 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
             br_put_more(d, "%s, ", br_order_text(&seen->order, text, sizeof text));
         br_put_more(d, "%s", seen->remark);
         if (!isnan(t->order))
-            br_put_more(d, "; theory %s", br_theory_text(t->order, t->highest, text, sizeof text));
+            br_put_more(d, "; theory %s", br_range_text(t->order, t->highest, text, sizeof text));
         if (isnan(t->order) && isnan(seen->order.value))
             br_put_more(d, "; theory: none");
         if (*t->reason && !(isnan(t->order) && isfinite(seen->order.value)))

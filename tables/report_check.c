@@ -100,10 +100,11 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
         br_put_more(d, "  %s:\n", br_verify_names[kind]);
         put_cells(d, check->scene, v);
         for (size_t i = 0; i < v->expectations; i++) {
-            const struct br_expectation *e = &v->expectation[i];
-            br_put_more(d, "    %s%s%s: %s +- %g", e->norm->name, e->part ? " " : "",
-                        e->part ? br_part_names[e->part] : "",
-                        br_theory_text(e->order, e->highest, label, sizeof label), e->tolerance);
+            const struct br_verify_expectation *expected = &v->expectation[i];
+            const struct br_expectation *e = &expected->band;
+            br_put_more(d, "    %s%s%s: %s +- %g", expected->norm->name, expected->part ? " " : "",
+                        expected->part ? br_part_names[expected->part] : "",
+                        br_range_text(e->order, e->highest, label, sizeof label), e->tolerance);
             if (*e->why)
                 br_put_more(d, "  # %s", e->why);
             br_put_more(d, "\n");
@@ -214,7 +215,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
             BR_PUT_ROW(d, br_text(br_verdict_names[c->verdict]), br_text(check->name),
                        br_text(br_verify_names[c->kind]), br_text(c->measure), br_text(c->part),
                        br_number(e->order));
-            br_put_shown(d, "%s +- %g", br_theory_text(e->order, e->highest, order, sizeof order),
+            br_put_shown(d, "%s +- %g", br_range_text(e->order, e->highest, order, sizeof order),
                          e->tolerance);
             BR_PUT_CELLS(d, br_number(e->tolerance), br_if(e->highest > 0, br_number(e->highest)),
                          br_text(*e->why ? e->why : NULL), br_number(c->order.value));

@@ -2,7 +2,7 @@
 /* The report of the library's orders; it stands here since study/ knows no reports. */
 #include <math.h>
 
-#include "study/base/text.h"
+#include "base/text.h"
 #include "study/library/library.h"
 #include "tables/reports.h"
 

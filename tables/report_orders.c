@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/orders/orders.h"
+#include "orders/orders.h"
 #include "tables/report_parts.h"
 
 static const struct br_quantity *quantity_of(const struct br_orders *o,

@@ -167,7 +167,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
                    .heading = "observed [95 %]");
             BR_PUT(d,
                    br_text(
-                       br_theory_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
+                       br_range_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
                    .heading = "theory");
             BR_PUT(d, br_text(seen->remark), .heading = "verdict", .flags = BR_WRAP);
             BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "measured from",

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What others have written (a scene's title, name, remark, file, keys, messages that repeat them)
-# is printed through study/base/quote.h alone: no printf and no fputs of plots/, tables/ and cli/
+# is printed through base/quote.h alone: no printf and no fputs of plots/, tables/ and cli/
 # has such a field among its arguments. usage: foreign_text.sh ROOT
 set -u
 cd "$1" || exit 1
@@ -37,4 +37,4 @@ found=$(for file in plots/*.c tables/*.c cli/*.c; do
         grep -E "((->|\.)$field|[(, ](title|remark|message|caption|path|unit|heading))( *[],)?:]|$)" |
         sed "s|^ *|$file: |"
 done)
-[ -z "$found" ] || { echo "written past study/base/quote.h:" "$found" >&2; exit 1; }
+[ -z "$found" ] || { echo "written past base/quote.h:" "$found" >&2; exit 1; }

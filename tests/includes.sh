@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Who includes whom: a folder includes itself and folders below it, nothing includes tests/, and no
-# file includes itself through others. Rooms of study/ include what `rooms` says and no more, and
+# file includes itself through others. base/ knows no one; solver/ and orders/ know base/ alone. Rooms
+# of study/ include what `rooms` says and no more, and
 # docs/architecture.md shows this list. No tag br_... is defined twice, in tests/ neither. It first tries small trees with mistakes, which it must find.
 # usage: includes.sh ROOT [--draw]    --draw: prints the list for the docs, and does nothing else
 set -u
@@ -9,34 +10,33 @@ set -u
 # A folder: what its files may include. The exact solution judges the solver, so it takes only the
 # scene and the form of a solution from it (docs/architecture.md).
 rules='
-solver: solver/
-reference: solver/ reference/
-study: solver/ reference/ study/ version.h
-tables: solver/ reference/ study/ tables/
-plots: solver/ reference/ study/ plots/
-cli: solver/ reference/ study/ tables/ plots/ cli/ build_info.h
-reference/exact: solver/box.h solver/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
-reference/exact: solver/status.h solver/instruction_set.h solver/vectors.h reference/
+base: base/
+orders: base/ orders/
+solver: base/ solver/
+reference: base/ solver/ reference/
+study: base/ orders/ solver/ reference/ study/ version.h
+tables: base/ orders/ solver/ reference/ study/ tables/
+plots: base/ orders/ solver/ reference/ study/ plots/
+cli: base/ orders/ solver/ reference/ study/ tables/ plots/ cli/ build_info.h
+reference/exact: solver/box.h base/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
+reference/exact: base/status.h solver/instruction_set.h solver/vectors.h reference/
 '
 
 # The rooms of study/. Each includes only rooms that stand above it here.
 rooms='
-base:
-known: base
-scene: base known
-grid: base scene
-reading: base grid
-fit: base grid
-kept: base grid
-ranks: base grid
-run: base
-foresee: base grid run
-verify: base fit grid scene
-orders: base fit kept reading scene verify
-trade: base fit foresee grid kept scene
-extremes: base run scene
-paper: base grid run scene
-library: base fit foresee grid orders scene verify
+known:
+scene: known
+grid: scene
+fit: grid
+kept: grid
+ranks: grid
+run:
+foresee: grid run
+verify: fit grid scene
+trade: fit foresee grid kept scene
+extremes: run scene
+paper: grid run scene
+library: fit foresee grid scene verify
 '
 
 # The list as docs/architecture.md has it.
@@ -49,7 +49,7 @@ fi
 # Prints each mistake of the tree in ROOT; at the end, how many files it has read. WHOLE: each arrow
 # of `rooms` must have an include.
 draw() { # ROOT [WHOLE]
-    (cd "$1" && find solver reference study tables plots cli -name '*.[ch]' 2>/dev/null | sort) |
+    (cd "$1" && find base orders solver reference study tables plots cli -name '*.[ch]' 2>/dev/null | sort) |
         awk -v root="$1/" -v rules="$rules" -v rooms="$rooms" -v whole="${2-}" '
 function allows(folder, target,    i) {
     for (i = 1; i <= allowed[folder]; i++)
@@ -139,7 +139,7 @@ END {
 
 # Prints each tag br_... of the tree in ROOT that two files, or two places of one, define.
 twice() { # ROOT
-    (cd "$1" && find solver reference study tables plots cli tests -name '*.[ch]' 2>/dev/null |
+    (cd "$1" && find base orders solver reference study tables plots cli tests -name '*.[ch]' 2>/dev/null |
         xargs sed -n -E 's/^ *(static |const |typedef )*(struct|union|enum) (br_[a-z0-9_]+) *\{.*/\3/p' |
         sort | uniq -d)
 }
@@ -176,7 +176,7 @@ plant cli/a.c plots/a.h
 plant cli/a.c build_info.h
 expect '7 files'
 
-for upward in 'solver/a.c reference/a.h' 'reference/a.h study/a.h' 'study/x/a.c tables/a.h' \
+for upward in 'base/a.c orders/a.h' 'orders/a.c solver/a.h' 'solver/a.c orders/a.h' 'solver/a.c reference/a.h' 'reference/a.h study/a.h' 'study/x/a.c tables/a.h' \
     'tables/a.c plots/a.h' 'plots/a.c tables/a.h' 'plots/a.c cli/a.h' 'cli/a.c tests/a.h' \
     'solver/a.c ../study/a.h' 'solver/a.c a.h'; do
     plant "${upward% *}" "${upward#* }"
@@ -196,13 +196,13 @@ study/$other/to_$room.c -> study/$room/a.h: study/$other/ may not include this"
     above="$above $room"
 done
 expect "$(echo "$upward" | sed 1d | sort)
-120 files"
+78 files"
 for arrow in $(echo "$rooms" | awk -F ': *' '{ split($2, to, " "); for (i in to) print $1 "/" to[i] }'); do
     plant "study/${arrow%/*}/to_${arrow#*/}.c" "study/${arrow#*/}/a.h"
 done
 expect "$(echo "$rooms" | sed 's/.*://' | wc -w) files"
 
-plant study/attic/a.c study/base/a.h
+plant study/attic/a.c study/known/a.h
 expect 'study/attic/a.c: study/attic/ is no room of the list
 1 files'
 
@@ -218,14 +218,14 @@ plant study/scene/a.c study/grid/a.h
 expect 'the list: grid does not stand above scene
 1 files'
 rooms='
-base:
-known: base
+known:
+scene: known
 '
-plant study/known/a.c solver/a.h
-plant study/known/b.c study/known/a.h
+plant study/scene/a.c solver/a.h
+plant study/scene/b.c study/scene/a.h
 found=$(draw "$tree" whole)
 expect '2 files'
-[ "$found" = 'the list: no file of study/known/ includes study/base/ any more
+[ "$found" = 'the list: no file of study/scene/ includes study/known/ any more
 2 files' ] || { echo "an arrow without an include was not found: $found" >&2; failures=$((failures + 1)); }
 rooms=$right
 
@@ -251,7 +251,7 @@ mistakes=$(echo "$found" | sed '$d')
 files=$(echo "$found" | sed '$!d; s/ files//')
 [ -z "$mistakes" ] || echo "$mistakes" >&2
 [ "$files" -gt 280 ] || echo "only $files files in $1" >&2
-shown=$(awk '/^    base$/ { on = 1 } on && !NF { exit } on' "$1/docs/architecture.md")
+shown=$(awk '/^    known$/ { on = 1 } on && !NF { exit } on' "$1/docs/architecture.md")
 if [ "$shown" != "$graph" ]; then
     echo "docs/architecture.md: the rooms of study/ differ from tests/includes.sh --draw:" >&2
     printf '%s\n' "$graph" >&2

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One line of errors for each law, with numbers that no other law makes: the law is found, with its
  * order, and no row but the finest is left out: a floor may hide that one. */
-#include "study/fit/line_order.h"
+#include "orders/line/line_order.h"
 
 #include <math.h>
 
@@ -412,7 +412,7 @@ static size_t of_rates(const double *rate, struct br_order_point *point)
 {
     size_t count = 1;
     point[0] = (struct br_order_point){.z = 1, .error = 1};
-    for (; rate[count - 1]; count++)
+    for (; rate[count - 1] != 0; count++)
         point[count] = (struct br_order_point){
             .z = point[count - 1].z / 2, .error = point[count - 1].error * exp2(-rate[count - 1])};
     return count;

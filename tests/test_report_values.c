@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "orders/request.h"
 #include "plots/pictures.h"
 #include "study/foresee/prediction.h"
-#include "study/orders/request.h"
 #include "study/paper/paper.h"
 #include "study/run/run.h"
 #include "study/verify/comparison.h"

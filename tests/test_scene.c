@@ -477,8 +477,8 @@ TEST(test_set_expectations)
     assert_int_equal(space->n[0], 5);
     assert_int_equal(space->line, 8);
     assert_int_equal(space->expectations, 1);
-    assert_true(space->expectation[0].tolerance == 0.2);
-    assert_int_equal(space->expectation[0].line, 0);
+    assert_true(space->expectation[0].band.tolerance == 0.2);
+    assert_int_equal(space->expectation[0].band.line, 0);
     br_verify_clear(&verify);
     br_scene_clear(&scene);
 }

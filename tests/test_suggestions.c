@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "cli_driver.h"
+#include "orders/request.h"
 #include "study/known/expression.h"
-#include "study/orders/request.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/named_method.h"

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/blas.h"
+#include "base/blas.h"
 
 enum { S = BR_STAGES };
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/blas.h"
+#include "base/blas.h"
 
 /* ---- a part of an interval ---- */
 

@@ -9,8 +9,8 @@
 #include <string.h>
 #include <suitesparse/umfpack.h>
 
+#include "base/blas.h"
 #include "solver/arithmetic.h"
-#include "solver/blas.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/linear/states.h"
 #include "solver/modes.h"

@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
+#include "orders/line/line_order.h"
 #include "solver/scene.h"
-#include "study/base/words.h"
-#include "study/fit/line_order.h"
 
 enum { LEAST = 3 }; /* errors for an order */
 /* An error of space above this share of the error of time hides its order. */

@@ -7,11 +7,11 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "base/observer.h"
+#include "orders/orders.h"
 #include "solver/scene.h"
-#include "study/base/observer.h"
 #include "study/fit/fit.h"
 #include "study/library/beamrate.h"
-#include "study/orders/orders.h"
 #include "study/verify/verify.h"
 
 /* Each handle begins with its kind, so that a handle of another kind is refused. */

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/base/each.h"
+#include "base/each.h"
+#include "orders/request.h"
 #include "study/foresee/foreseen.h"
 #include "study/grid/sweep.h"
 #include "study/library/library.h"
-#include "study/orders/request.h"
 #include "study/verify/check.h"
 
 static_assert((int)BEAMRATE_TOTAL == BR_PART_TOTAL && (int)BEAMRATE_OF_AXIAL == BR_PART_AXIAL &&

@@ -4,8 +4,8 @@
 #ifndef BR_STUDY_SCENE_METHOD_FIELDS_H
 #define BR_STUDY_SCENE_METHOD_FIELDS_H
 
+#include "base/words.h"
 #include "solver/method.h"
-#include "study/base/words.h"
 
 enum br_method_key {
     BR_METHOD_SCHEME,

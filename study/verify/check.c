@@ -129,7 +129,7 @@ static double refinement(enum br_verify_kind kind, struct br_resolution at)
 
 /* Point i of a section in one norm and component. */
 static struct br_point point_at(const struct plan *plan, const struct section *s, size_t i,
-                                const struct br_expectation *e)
+                                const struct br_verify_expectation *e)
 {
     const bool joint = s->kind == BR_VERIFY_JOINT;
     const struct br_study *study = study_in(plan, s, joint ? 0 : i, norm_index(s, e->norm));
@@ -163,11 +163,11 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
 }
 
 static enum br_status conclude_case(const struct plan *plan, const struct section *s,
-                                    const struct br_expectation *e, struct br_case *c,
+                                    const struct br_verify_expectation *e, struct br_case *c,
                                     struct br_error *err)
 {
     c->kind = s->kind;
-    c->expected = *e;
+    c->expected = e->band;
     c->measure = e->norm->name;
     c->part = br_part_names[e->part];
     c->unit = e->norm->unit;
@@ -273,34 +273,4 @@ enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
         br_check_clear(&checks[i]);
     clear_plan(&plan);
     return status;
-}
-
-void br_check_clear(struct br_check *check)
-{
-    for (size_t i = 0; i < check->count; i++)
-        free(check->cases[i].point);
-    free(check->cases);
-    check->cases = NULL;
-    check->count = 0;
-}
-
-size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)
-{
-    size_t failures = 0;
-    *first = NULL;
-    for (size_t i = 0; i < count; i++)
-        if (checks[i].failure.status) {
-            *first = *first ? *first : &checks[i];
-            failures++;
-        }
-    return failures;
-}
-
-size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict)
-{
-    size_t tally = 0;
-    for (size_t i = 0; i < count; i++)
-        for (size_t c = 0; c < checks[i].count; c++)
-            tally += checks[i].cases[c].verdict == verdict;
-    return tally;
 }

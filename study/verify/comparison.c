@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/fit/theory.h"
 
 enum { SUBJECT = 192 }; /* characters of a difference's subject */
@@ -123,7 +123,7 @@ static bool expects_less(const struct br_expectation *e, const struct br_expecta
 static const char *say_expectation(const struct br_expectation *e, char text[160])
 {
     char order[64];
-    snprintf(text, 160, "%s +- %g", br_theory_text(e->order, e->highest, order, sizeof order),
+    snprintf(text, 160, "%s +- %g", br_range_text(e->order, e->highest, order, sizeof order),
              e->tolerance);
     if (isfinite(e->floor))
         br_append(text, 160, ", %g to %g", e->floor, e->ceiling);

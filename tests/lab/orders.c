@@ -18,7 +18,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "study/orders/orders.h"
+#include "orders/orders.h"
 #include "tests/lab/grids.h"
 #include "tests/lab/others.h"
 #include "tests/lab/published.h"
