@@ -19,7 +19,7 @@ tables: base/ orders/ solver/ reference/ study/ tables/
 plots: base/ orders/ solver/ reference/ study/ plots/
 cli: base/ orders/ solver/ reference/ study/ tables/ plots/ cli/ build_info.h
 reference/exact: solver/box.h base/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
-reference/exact: base/status.h solver/instruction_set.h solver/vectors.h reference/
+reference/exact: base/blas.h base/status.h solver/instruction_set.h solver/vectors.h reference/
 '
 
 # The rooms of study/. Each includes only rooms that stand above it here.
