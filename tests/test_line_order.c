@@ -465,8 +465,11 @@ TEST(test_interval_of_noise)
 {
     static const struct {
         size_t rows;
-        double t; /* of rows - 2 degrees of freedom, 97.5 % */
-    } lines_of[] = {{4, 4.302653}, {5, 3.182446}, {6, 2.776445}, {7, 2.570582}};
+        double t, t99; /* of rows - 2 degrees of freedom, 97.5 % and 99.5 % */
+    } lines_of[] = {{4, 4.302653, 9.924843},
+                    {5, 3.182446, 5.840909},
+                    {6, 2.776445, 4.604095},
+                    {7, 2.570582, 4.032143}};
     static const double noise[] = {0.02, -0.03, 0.03, -0.02, 0.01, -0.025, 0.03};
     for (size_t l = 0; l < sizeof lines_of / sizeof *lines_of; l++) {
         struct br_order_point point[ROWS];
@@ -484,5 +487,9 @@ TEST(test_interval_of_noise)
         const double ratio = (found.order.high - found.order.low) / 2 / half;
         if (!(ratio >= 0.8 && ratio <= 2))
             fail_msg("%zu rows: %g times as wide", lines_of[l].rows, ratio);
+        const double wider = (found.high99 - found.low99) / (found.order.high - found.order.low);
+        const double share = wider * lines_of[l].t / lines_of[l].t99;
+        if (!(share >= 0.84 && share <= 1.55)) /* of a 98 % interval 0.68 to 0.83 */
+            fail_msg("%zu rows: the 99 %% interval is %g times as wide", lines_of[l].rows, wider);
     }
 }

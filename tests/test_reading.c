@@ -294,9 +294,11 @@ TEST(test_numbers)
 
 TEST(test_missing)
 {
-    static const char *const missing[] = {NULL,     "",    "-",       "--",   "---",
-                                          "\u2013", "NaN", "-nan",    "N/A",  "inf",
-                                          "-Inf",   "***", "missing", "null", "$-$"};
+    static const char *const missing[] = {
+        NULL,      "",     "-",    "--",       "---",       "\u2013", "\u2014",   "\u2212",
+        "NaN",     "-nan", "+nan", "NA",       "N/A",       "n.a.",   "#N/A",     "None",
+        "inf",     "-Inf", "+inf", "Infinity", "-infinity", "\u221e", "***",      "*",
+        "missing", "null", "<NA>", "$-$",      "{-}",       "$--$",   "$\\infty$"};
     static const char *const present[] = {"0", "x", "-1", "nano", "* 1", "na na"};
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         assert_true(br_field_is_missing(missing[i]));
