@@ -271,7 +271,8 @@ struct br_check br_study_file_check(struct br_study_file *f, const struct br_opt
     struct br_orders_request *r = &f->request;
     r->jobs = (int)br_option_number(o, BR_OPT_THREADS, 0);
     r->anew = !br_option_given(o, BR_OPT_RESUME);
-    struct br_check check = {.path = r->path,
+    struct br_check check = {.of_program = true,
+                             .path = r->path,
                              .name = r->title     ? r->title
                                      : r->command ? r->command
                                                   : r->path};

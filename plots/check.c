@@ -3,8 +3,8 @@
 #include <math.h>
 
 #include "base/quote.h"
+#include "orders/expectation/check.h"
 #include "plots/pictures.h"
-#include "study/verify/check.h"
 
 enum { ROWS = 30, MOST = 100 }; /* with more orders a row is a check; no more rows are drawn */
 

@@ -173,7 +173,7 @@ static void say_scene(const char *frame, const char *word, char *answer, size_t 
     struct br_scene scene;
     struct br_error err = {0};
     struct br_verify verify;
-    assert_int_equal(br_verify_read("s.yaml", fill(frame, word), &scene, &verify, &err),
+    assert_int_equal(br_verify_read("s.yaml", fill(frame, word), NULL, &scene, &verify, &err),
                      BR_BAD_INPUT);
     br_scene_clear(&scene);
     br_verify_clear(&verify);

@@ -190,9 +190,9 @@ static void measure(struct br_test_random *r, size_t number, struct tally tally[
         expect(&scene, (enum br_verify_kind)kind, v);
     }
     snprintf(name, sizeof name, "%zu", number);
-    struct br_check check = {
-        .path = "drawn.yaml", .name = name, .scene = &scene, .verify = &verify};
-    MUST(br_check_run(&check, 1, 0, NULL, &err));
+    struct br_check check = {.path = "drawn.yaml", .name = name};
+    MUST(br_check_run(&(struct br_scene_check){.scene = &scene, .verify = &verify, .check = &check},
+                      1, 0, NULL, &err));
     if (check.failure.status)
         print_message("# %zu: %s\n", number, check.failure.message);
     for (const struct br_case *c = check.cases; c < check.cases + check.count; c++) {

@@ -36,7 +36,7 @@ static const char *with(const char *part)
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    return br_verify_read("scene.yaml", with(part), scene, verify, err);
+    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, err);
 }
 
 TEST(test_whole)

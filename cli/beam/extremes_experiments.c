@@ -3,8 +3,8 @@
  * reports and plots/ draws. */
 #include "cli/beam/extremes_experiment.h"
 
-#include "plots/pictures.h"
-#include "tables/reports.h"
+#include "plots/beam/pictures.h"
+#include "tables/beam/reports.h"
 
 /* Round-off: a picture for each k of the solvers' floors, or one of the round-off that steps
  * gather. */

@@ -7,9 +7,9 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "study/paper/paper.h"
-#include "tables/reports.h"
+#include "tables/beam/reports.h"
 
 struct run {
     struct br_session *session; /* borrowed */

@@ -8,10 +8,11 @@
 #include "base/clock.h"
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "plots/beam/pictures.h"
 #include "study/foresee/prediction.h"
 #include "study/ranks/ranks.h"
-#include "tables/fields_file.h"
-#include "tables/reports.h"
+#include "tables/beam/fields_file.h"
+#include "tables/beam/reports.h"
 
 /* The files of --out that are written while it marches. */
 enum { HISTORY, FIELDS_CSV, FIELDS_XDMF, FILES };

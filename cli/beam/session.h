@@ -51,7 +51,7 @@ enum br_status br_warn_of_paper(struct br_error *err);
 
 /* The same for the marches of checks, and of trials of a scene: a refused march is one of their
  * results, not a failure. */
-void br_warn_of_checks(const struct br_check *checks, size_t count);
+void br_warn_of_checks(const struct br_scene_check *checks, size_t count);
 void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count);
 
 #endif

@@ -3,9 +3,9 @@
  * Tables 1 and 2 on their printed grids, two studies at once. */
 #include "cli/beam/studies.h"
 #include "cli/command.h"
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "study/foresee/warnings.h"
-#include "tables/reports.h"
+#include "tables/beam/reports.h"
 
 static enum br_status write_all(struct br_studies *r, struct br_error *err)
 {

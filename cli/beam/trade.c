@@ -10,12 +10,12 @@
 #include "cli/beam/study_request.h"
 #include "cli/command.h"
 #include "cli/progress.h"
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "study/scene/file.h"
 #include "study/scene/units.h"
 #include "study/trade/split.h"
 #include "study/trade/trade.h"
-#include "tables/reports.h"
+#include "tables/beam/reports.h"
 
 /* A scene and its trials; must not be moved after br_trade_lay_out. */
 struct item {

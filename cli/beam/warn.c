@@ -98,12 +98,12 @@ enum br_status br_warn_of_paper(struct br_error *err)
     return status;
 }
 
-void br_warn_of_checks(const struct br_check *checks, size_t count)
+void br_warn_of_checks(const struct br_scene_check *checks, size_t count)
 {
-    for (const struct br_check *c = checks; c < checks + count; c++) {
+    for (const struct br_scene_check *c = checks; c < checks + count; c++) {
         struct scene_check check = {.scene = c->scene};
         struct br_error refusal = {0};
-        for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
             const struct br_verify_study *v = &c->verify->study[kind];
             check.finest = (struct br_planned_march){0};
             for (size_t i = 0; i < v->count; i++)
@@ -111,7 +111,7 @@ void br_warn_of_checks(const struct br_check *checks, size_t count)
             if (check.finest.n)
                 br_check_loads(&check.finest, &check.warnings, &refusal);
         }
-        br_print_warnings(c->name, &check.warnings);
+        br_print_warnings(c->scene->name, &check.warnings);
     }
 }
 

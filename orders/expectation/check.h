@@ -4,21 +4,21 @@
 #define BR_ORDERS_EXPECTATION_CHECK_H
 
 #include "orders/expectation/case.h"
-
-struct br_scene;
-struct br_verify;
+#include "orders/expectation/setting.h"
 
 struct br_check {
     /* in; borrowed */
-    const char *path;               /* of the scene, for messages */
-    const char *name;               /* of the scene, or of the study of another program */
-    const struct br_scene *scene;   /* NULL: of another program, whose cases are given */
-    const struct br_verify *verify; /* NULL likewise */
-    char problem[40];               /* a hash of what is solved, for comparisons; "": none */
-    const char *data;               /* as in struct br_verify; NULL: not known */
+    const char *path; /* of the source, for messages */
+    const char *name;
+    bool of_program;  /* the numbers are a program's or a table's, whose work is not known */
+    char problem[40]; /* a hash of what is solved, for comparisons; "": none */
+    const char *data; /* what is solved, a line "key: value" each; NULL: not known */
+    const char
+        *defaults; /* the expectations as a file would state them; NULL: a file states them */
+    const struct br_settings *method; /* BR_VERIFY_KINDS of them, by study; NULL: not known */
     /* out */
-    struct br_error failure; /* BR_BAD_INPUT: the scene cannot be verified (its reference or a
-                                method refuses it), with file and line; there are no cases then */
+    struct br_error failure; /* BR_BAD_INPUT: it cannot be verified, with file and line; there are
+                                no cases then */
     struct br_case *cases;   /* by study, in the order of the expectations; owned */
     size_t count;
     double seconds;       /* of all marches of the solver, one thread */

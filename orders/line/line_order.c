@@ -955,7 +955,7 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
         if ((r.count >= 3 || all.few) && isfinite(r.order)) {
             take_noise(&r);
             for (size_t i = 1; i < r.count; i++)
-                r.log_gamma[i] = lgamma((double)i / 2);
+                r.log_gamma[i] = lgamma_r((double)i / 2, &(int){0}); /* lgamma writes a global */
             all.log_gamma = r.log_gamma;
             const double absolute = isfinite(all.far) && !all.few ? br_priors.absolute : 0;
             all.finest = 1;

@@ -28,14 +28,9 @@ struct contest {
 
 /* ---- rows in order ---- */
 
-struct place {
-    size_t line, row;
-    double log_z;
-};
-
 static int by_place(const void *a, const void *b)
 {
-    const struct place *x = a, *y = b;
+    const struct br_place *x = a, *y = b;
     const int line = (x->line > y->line) - (x->line < y->line);
     const int size = (x->log_z < y->log_z) - (x->log_z > y->log_z);
     return line ? line : size ? size : (x->row > y->row) - (x->row < y->row);
@@ -43,17 +38,14 @@ static int by_place(const void *a, const void *b)
 
 void br_decide_sort(const struct br_roles *r, const struct br_candidate *c, size_t *sorted)
 {
-    struct place *place = br_allocate(r->rows + 1, sizeof *place);
     size_t count = 0;
-    for (size_t i = 0; place && i < r->rows; i++)
+    for (size_t i = 0; i < r->rows; i++)
         if (!r->dropped[i] && !isnan(c->log_z[i]))
-            place[count++] = (struct place){r->line[i], i, c->log_z[i]};
-    if (place)
-        qsort(place, count, sizeof *place, by_place);
-    for (size_t i = 0; place && i < count; i++)
-        sorted[i] = place[i].row;
-    sorted[place ? count : 0] = BR_NO_ROW;
-    free(place);
+            r->place[count++] = (struct br_place){r->line[i], i, c->log_z[i]};
+    qsort(r->place, count, sizeof *r->place, by_place);
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = r->place[i].row;
+    sorted[count] = BR_NO_ROW;
 }
 
 /* ---- candidates ---- */

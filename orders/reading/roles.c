@@ -806,30 +806,27 @@ static enum br_status number_names(struct br_roles *r, struct br_error *err)
 }
 
 /* An error that halves exactly beside sizes that do not is a size, more likely. */
-static enum br_status check_swap(const struct br_roles *r, const struct br_candidate *over,
+static enum br_status check_swap(struct br_roles *r, const struct br_candidate *over,
                                  size_t *sorted, struct br_error *err)
 {
     const struct br_role_column *size =
         over->size.column == BR_NO_ROW ? NULL : &r->column[over->size.column];
     struct br_candidate c = {.size = {br_resolution_column_find("h"), 0, 1}};
-    double *log_z = br_allocate(r->rows + 1, sizeof *log_z);
+    size_t *order = br_store_take(&r->store, r->rows + 1, sizeof *order);
     bool swapped = false;
     size_t i = 0;
-    c.log_z = log_z;
-    for (; log_z && size && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
+    c.log_z = br_store_take(&r->store, r->rows + 1, sizeof *c.log_z);
+    if (!c.log_z || !order)
+        return br_no_memory(err, "the table");
+    for (; size && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
         if (r->column[i].role != BR_ROLE_ERROR || r->column[i].by_hand || over->agrees_with_rates ||
             br_evidence_halves(r, over, sorted))
             continue;
         for (size_t row = 0; row < r->rows; row++)
-            log_z[row] = r->dropped[row] ? (double)NAN : log(r->column[i].number[row]);
-        size_t *order = br_allocate(r->rows + 1, sizeof *order);
-        if (order) {
-            br_decide_sort(r, &c, order);
-            swapped = br_evidence_halves(r, &c, order);
-        }
-        free(order);
+            c.log_z[row] = r->dropped[row] ? (double)NAN : log(r->column[i].number[row]);
+        br_decide_sort(r, &c, order);
+        swapped = br_evidence_halves(r, &c, order);
     }
-    free(log_z);
     if (!swapped)
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
@@ -1059,7 +1056,8 @@ enum br_status br_roles_find(const struct br_fields *fields, const struct br_tab
     r->dropped = br_store_take(&r->store, r->rows + 1, sizeof *r->dropped);
     r->group = br_store_take(&r->store, r->rows + 1, sizeof *r->group);
     r->line = br_store_take(&r->store, r->rows + 1, sizeof *r->line);
-    if (!r->column || !r->dropped || !r->group || !r->line)
+    r->place = br_store_take(&r->store, r->rows + 1, sizeof *r->place);
+    if (!r->column || !r->dropped || !r->group || !r->line || !r->place)
         return br_no_memory(err, "the table");
     return find_roles(r, err);
 }

@@ -94,6 +94,11 @@ static inline double br_odds(const struct br_role_column *c, const struct br_res
 
 #define BR_NO_ROW SIZE_MAX /* no row, or no column */
 
+struct br_place {
+    size_t line, row;
+    double log_z;
+};
+
 struct br_roles {
     const struct br_fields *fields;
     const struct br_table_wishes *wishes;
@@ -103,6 +108,7 @@ struct br_roles {
     const char **dropped;    /* rows: why the row is left aside; NULL: it is not; static */
     size_t *group;           /* rows: the case */
     size_t *line;            /* rows: the line along which one size changes */
+    struct br_place *place;  /* rows: room of br_decide_sort */
     const char **group_name; /* groups: "method = P1"; a single one: "" */
     size_t groups;
     struct br_size size[BR_AXES];

@@ -55,13 +55,9 @@ void br_verify_clear(struct br_verify *verify);
 
 /* Reads a scene as br_scene_read_text does, and its expectations: its part `verify`
  * (an example is in study/scenes/example1.yaml), or else the default. The caller clears both, even
- * after a failure. */
-enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
-                              struct br_verify *verify, struct br_error *err);
-
-/* The same with keys of --set, as in struct br_scene_asked; NULL: none. */
-enum br_status br_verify_read_set(const char *name, const char *text, const char *set,
-                                  struct br_scene *scene, struct br_verify *verify,
-                                  struct br_error *err);
+ * after a failure. set: keys of --set, as in struct br_scene_asked; NULL: none. */
+enum br_status br_verify_read(const char *name, const char *text, const char *set,
+                              struct br_scene *scene, struct br_verify *verify,
+                              struct br_error *err);
 
 #endif

@@ -297,7 +297,8 @@ static enum br_status read_studies(const struct br_scene_reader *r, const yaml_n
                                    br_expected(key, br_verify_names, BR_VERIFY_KINDS, expected));
         struct study_part b = {
             .r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
-        const enum br_status status = read_block(&b, yaml_document_get_node(r->yaml.document, p->value));
+        const enum br_status status =
+            read_block(&b, yaml_document_get_node(r->yaml.document, p->value));
         free(b.n);
         free(b.k);
         if (status)
@@ -319,17 +320,11 @@ static enum br_status take(const struct br_scene_reader *r, const yaml_node_t *n
     return status ? status : br_scene_data(r, &verify->data);
 }
 
-enum br_status br_verify_read_set(const char *name, const char *text, const char *set,
-                                  struct br_scene *scene, struct br_verify *verify,
-                                  struct br_error *err)
+enum br_status br_verify_read(const char *name, const char *text, const char *set,
+                              struct br_scene *scene, struct br_verify *verify,
+                              struct br_error *err)
 {
     const struct br_scene_asked asked = {.take_verify = take, .self = verify, .set = set};
     *verify = (struct br_verify){0};
     return br_scene_parse(name, text, &asked, scene, err);
-}
-
-enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
-                              struct br_verify *verify, struct br_error *err)
-{
-    return br_verify_read_set(name, text, NULL, scene, verify, err);
 }
