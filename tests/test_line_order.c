@@ -493,3 +493,30 @@ TEST(test_interval_of_noise)
             fail_msg("%zu rows: the 99 %% interval is %g times as wide", lines_of[l].rows, wider);
     }
 }
+
+/* By hand: a row that scatters ten times as much has a hundredth of the weight. */
+TEST(test_weights)
+{
+    enum { HAND = 5 };
+    for (size_t odd = 0; odd < HAND; odd++) {
+        struct br_order_point point[HAND];
+        struct br_line_order found;
+        double slope[3]; /* by weights of 1, 1/sigma and 1/sigma^2 */
+        for (int power_of = 0; power_of < 3; power_of++) {
+            double w = 0, x = 0, y = 0, xx = 0, xy = 0;
+            for (size_t i = 0; i < HAND; i++) {
+                const double log_z = -(double)i * log(2);
+                const double log_e = 2 * log_z + (i == odd ? 0.03 : i % 2 ? 0.003 : -0.003);
+                const double sigma = i == odd ? 0.02 : 0.002, weight = pow(sigma, -power_of);
+                point[i] = (struct br_order_point){
+                    .z = exp(log_z), .error = exp(log_e), .deviation = sigma * exp(log_e)};
+                w += weight, x += weight * log_z, y += weight * log_e;
+                xx += weight * log_z * log_z, xy += weight * log_z * log_e;
+            }
+            slope[power_of] = (w * xy - x * y) / (w * xx - x * x);
+        }
+        find(point, HAND, &found);
+        if (odd != HAND / 2) /* there no weight turns the line */
+            AT_MOST(fabs(found.order.value - slope[2]), 0.25 * fabs(slope[1] - slope[2]));
+    }
+}
