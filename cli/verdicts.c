@@ -58,7 +58,8 @@ static enum br_status check_paths(const struct br_verdicts *v, const char *basel
     return BR_OK;
 }
 
-/* A baseline that will be written may be missing, or be of another problem. */
+/* A baseline that will be written may be missing, or be of another problem; what is no baseline is
+ * not replaced. */
 static enum br_status read_baseline(struct br_verdicts *v, const struct br_options *options,
                                     const struct br_check *checks, size_t count,
                                     struct br_error *err)
@@ -72,8 +73,15 @@ static enum br_status read_baseline(struct br_verdicts *v, const struct br_optio
         v->compare = NULL;
     if (!v->compare)
         return BR_OK;
-    if (!br_check_read_json(v->compare, &v->old, err) &&
-        !br_compare_check(checks, count, &v->old, err))
+    if (br_check_read_json(v->compare, &v->old, err)) {
+        const struct br_error why = *err;
+        return why.status != BR_BAD_INPUT || !update
+                   ? why.status
+                   : br_fail(err, BR_BAD_INPUT,
+                             "%.400s; --update-baseline replaces no other file than a baseline",
+                             why.message);
+    }
+    if (!br_compare_check(checks, count, &v->old, err))
         return BR_OK;
     if (err->status != BR_BAD_INPUT || !update)
         return err->status;

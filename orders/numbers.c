@@ -175,8 +175,12 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
         const double given = row->failure && isnan(row->given[axis]) ? 1 : row->given[axis];
         if (column && !((given > 0 || ((column->is_power || column->is_degree) && given >= 0)) &&
                         isfinite(given)))
-            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
-                           column->name, given);
+            return isfinite(given)
+                       ? br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0",
+                                 source, column->name, given)
+                       : br_fail(err, BR_BAD_INPUT,
+                                 "%s: %s: found no finite number, expected a number above 0",
+                                 source, column->name);
         if (column && !(z >= 1 / largest && z <= largest)) /* so that ratios do not overflow */
             return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a size from %g to %g",
                            source, column->name, given, 1 / largest, largest);

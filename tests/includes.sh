@@ -26,7 +26,7 @@ cli: base/ orders/ tables/ plots/ cli/ build_info.h -tables/beam/ -plots/beam/ -
 cli/beam: base/ orders/ solver/ reference/ study/ tables/ plots/ cli/
 cli/main.c: cli/
 reference/exact: solver/box.h base/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
-reference/exact: base/status.h solver/instruction_set.h solver/vectors.h reference/
+reference/exact: base/blas.h base/status.h solver/instruction_set.h solver/vectors.h reference/
 '
 
 # The rooms of study/. Each includes only rooms that stand above it here.
