@@ -109,6 +109,7 @@ static enum br_status begin_case(const struct br_orders *o, size_t quantity, enu
         .part = "",
         .unit = q->unit ? q->unit : "",
         .points = points,
+        .order = {NAN, NAN, NAN},
         .may_miss = true,
     };
     c->point = br_allocate(points + 1, sizeof *c->point);

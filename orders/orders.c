@@ -108,8 +108,11 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     }
     /* Rows are only left out, so the same number means the same rows. */
     if (!status && !(count > 0 && count == of->joint.points + of->joint.left_out)) {
-        status = br_joint_fit_solve(observation, count, !numbers->powers, numbers->observer,
-                                    &of->joint, err);
+        if (numbers->fitted)
+            of->joint = *numbers->fitted;
+        else
+            status = br_joint_fit_solve(observation, count, !numbers->powers, numbers->observer,
+                                        &of->joint, err);
         for (size_t i = 0; i < numbers->rows && !status; i++) {
             of->flag[i] = left_out(o, of, i);
             if (of->flag[i] == BR_FLAG_NONE)
@@ -144,16 +147,28 @@ static bool is_scatter(const struct br_orders_line *line)
     return line->limits.limit.sequence == BR_SEQUENCE_SCATTER;
 }
 
+/* Whether a line is one of the two finest along an axis whose theory is known: it may be an answer.
+ */
+static bool is_fine(const struct br_orders *o, const struct br_quantity_orders *of, size_t line)
+{
+    if (!(o->numbers->quantity[of->quantity].formal[of->line[line].axis] > 0))
+        return false;
+    return line + 2 >= of->lines || of->line[line + 2].axis != of->line[line].axis;
+}
+
 /* Finds the orders of all lines, which leaves out the errors that do not show them. On a grid,
  * errors may stay along one axis since the error of the other axis is larger; where the joint fit
- * describes all errors, none is left out. */
+ * describes all errors, none is left out, and of powers no line is needed then. */
 static enum br_status observe_lines(const struct br_orders *o, struct br_quantity_orders *of,
                                     bool leave_out, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t l = 0; l < of->lines && !status; l++) {
         struct br_case *c = &of->line[l].observed;
-        status = stopped(o->numbers, err) ? err->status : br_case_observe(c, BR_ORDERS_LEAST, err);
+        if (stopped(o->numbers, err))
+            return err->status;
+        if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
+            status = br_case_observe(c, BR_ORDERS_LEAST, err);
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
         if (!status && (is_scatter(&of->line[l]) || size->is_degree))
             br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);

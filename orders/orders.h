@@ -77,10 +77,12 @@ struct br_numbers {
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
     bool powers; /* the errors of each axis are known to be one power, without scatter and, but for
-                    rows that are out, without a floor: joint fits have no other laws, and lines
-                    leave no row out of them */
-    double dimension;      /* of the mesh, where unknowns or cells are counted */
-    bool assumed;          /* nobody stated it */
+                    rows that are out, without a floor: joint fits have no other laws, lines leave
+                    no row out of them, and only the two finest lines along an axis of known theory
+                    have an order */
+    const struct br_joint_fit *fitted; /* their joint fit, where it is known; NULL: it is not */
+    double dimension;                  /* of the mesh, where unknowns or cells are counted */
+    bool assumed;                      /* nobody stated it */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a

@@ -245,8 +245,10 @@ static enum br_status ask(const struct br_report *r, enum br_part part, enum br_
     struct br_numbers numbers;
     struct br_orders orders = {0};
     enum br_status status = br_fit_numbers(r->fitted, part, &numbers, err);
+    numbers.fitted = &r->fits[part].joint;
     for (enum br_axis a = 0; a < BR_AXES && !status; a++) {
-        numbers.quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
+        if (a == axis || r->apart[a])
+            numbers.quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
         if (r->apart[a])
             status = add_differences(r->apart[a], part, a, &numbers, err);
     }
