@@ -7,7 +7,6 @@
  * unknowns leave, H their curvature with that of the priors, the evidence is (Laplace)
  *     prior Gamma(f/2) (pi S)^(-f/2) det(H)^(-1/2),   f = n - k. */
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +15,6 @@
 
 #define LOG_C(axis) (BR_OF_AXIS * (axis) + BR_LOG_C)
 #define ORDER(axis) (BR_OF_AXIS * (axis) + BR_ORDER)
-#define SHAPE(axis) (BR_OF_AXIS * (axis) + BR_SHAPE)
 
 bool br_joint_has(enum br_joint_kind kind, int axis)
 {
@@ -29,22 +27,30 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
     return (struct br_estimate){value, value - half, value + half};
 }
 
+double br_akaike(double sum, size_t count, size_t unknowns)
+{
+    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
+    if (!(n > u + 1))
+        return INFINITY;
+    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
+}
+
 /* ---- the cells ---- */
 
-enum { MOST_TRIALS = 600, MOST_WINDOWS = 12 };
+enum { MOST_TRIALS = 600, MOST_WINDOWS = 12, MOST_SIZES = 64 };
 
 struct candidate {
     struct br_joint_trial trial;
-    double log_weight;             /* of the mixture; -infinite: there is no fit */
+    double log_weight; /* of the mixture, then the weight; -infinite: there is no fit */
     double deviation[BR_UNKNOWNS]; /* of values in m and s */
-    double open[BR_AXES];          /* what else is not known of an order, as a scale */
-    size_t window, freedom, extras;
+    size_t window, extras;
     bool widened;
 };
 
 struct search {
     struct br_joint_cells all, used; /* all cells; those of a window */
-    struct br_joint_cell *room;      /* for so many again, for the jackknife */
+    struct br_joint_cell *rest;      /* room for so many again, for the jackknife */
+    double *residual;                /* room for one of each cell */
     double unit[BR_AXES], log_error; /* of scaled sizes and errors: logarithms in m, s, m^(3/2) */
     bool any_model;
     bool *out[MOST_WINDOWS]; /* what each window leaves out */
@@ -53,7 +59,9 @@ struct search {
     bool has_far; /* the second window is that without cells that are far off */
     struct candidate *candidate;
     size_t count;
-    double best; /* the largest log_weight */
+    double best;             /* the largest log_weight */
+    struct br_family *kink;  /* orders that change at a size, or between two */
+    size_t kinks[BR_AXES];   /* up to that one they are of the first axis, then of the second */
 };
 
 static int by_value(const void *a, const void *b)
@@ -62,40 +70,42 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static size_t size_of(const struct br_joint_cells *c, int axis, double x)
+{
+    size_t i = c->sizes[axis];
+    while (i > 0 && c->size[axis][i - 1].x != x)
+        i--;
+    return i - 1;
+}
+
 /* The different sizes of an axis, ascending, after 0. value: room for two a cell. */
 static void take_sizes(struct search *s, const struct br_observation *o, int axis, double *value)
 {
     struct br_joint_cells *c = &s->all;
-    size_t n = 0;
     for (size_t i = 0; i < c->count; i++) {
-        value[n++] = o[i].x[axis];
-        value[n++] = o[i].ref[axis];
+        value[2 * i] = o[i].x[axis];
+        value[2 * i + 1] = o[i].ref[axis];
     }
-    qsort(value, n, sizeof *value, by_value);
-    const double most = value[n - 1];
+    qsort(value, 2 * c->count, sizeof *value, by_value);
+    const double most = value[2 * c->count - 1];
     s->unit[axis] = log(most);
-    c->size[axis][c->sizes[axis]++].x = 0;
-    for (size_t i = 0; i < n; i++)
-        if (value[i] / most > c->size[axis][c->sizes[axis] - 1].x) {
-            struct br_joint_size *next = &c->size[axis][c->sizes[axis]++];
-            next->x = value[i] / most;
-            next->log_x = log(next->x);
-        }
-    c->finest[axis] = 1;
+    c->sizes[axis] = 1;
+    for (size_t i = 0; i < 2 * c->count; i++)
+        if (value[i] / most > c->size[axis][c->sizes[axis] - 1].x)
+            c->size[axis][c->sizes[axis]++] =
+                (struct br_joint_size){.x = value[i] / most, .log_x = log(value[i] / most)};
     for (size_t i = 0; i < c->count; i++) {
-        c->finest[axis] = fmin(c->finest[axis], o[i].x[axis] / most);
-        for (size_t j = 1; j < c->sizes[axis]; j++) {
-            if (c->size[axis][j].x == o[i].x[axis] / most)
-                c->cell[i].at[axis] = j;
-            if (c->size[axis][j].x == o[i].ref[axis] / most)
-                c->cell[i].against[axis] = j;
-        }
+        struct br_joint_cell *cell = &c->cell[i];
+        cell->at[axis] = size_of(c, axis, o[i].x[axis] / most);
+        cell->against[axis] = size_of(c, axis, o[i].ref[axis] / most);
+        c->log_finest[axis] = fmin(c->log_finest[axis], c->size[axis][cell->at[axis]].log_x);
     }
 }
 
-static void take_cells(struct search *s, const struct br_observation *o, double *value)
+static void take_cells(struct search *s, const struct br_observation *o)
 {
     struct br_joint_cells *c = &s->all;
+    double *value = s->residual;
     for (size_t i = 0; i < c->count; i++)
         value[i] = log(o[i].error);
     qsort(value, c->count, sizeof *value, by_value);
@@ -103,12 +113,11 @@ static void take_cells(struct search *s, const struct br_observation *o, double 
     c->lowest = value[0] - s->log_error;
     for (size_t i = 0; i < c->count; i++) {
         double copies = 0;
-        for (size_t j = 0; j < c->count && s->any_model; j++)
+        for (size_t j = 0; j < c->count; j++)
             copies += o[j].error == o[i].error;
         c->cell[i].log_error = log(o[i].error) - s->log_error;
         c->cell[i].weight = s->any_model ? 1 / copies : 1;
         c->cell[i].rounded = o[i].rounding / o[i].error / sqrt(3);
-        c->cell[i].from = i;
     }
     for (int a = 0; a < BR_AXES; a++)
         take_sizes(s, o, a, value);
@@ -130,70 +139,35 @@ static size_t sizes_of(const struct br_joint_cells *c, int axis)
     return differs ? sizes : 0;
 }
 
-static double weight_of(const struct br_joint_cells *c)
-{
-    double sum = 0;
-    for (size_t i = 0; i < c->count; i++)
-        sum += c->cell[i].weight;
-    return sum;
-}
-
 /* A fit needs more cells than unknowns, and that of an axis more sizes: one that goes through all
  * of them shows nothing. */
 static bool enough(const struct search *s, const struct br_joint_law *law)
 {
     int unknown[BR_UNKNOWNS];
     const double spare = s->any_model ? 1 : 2, noise = 1e-9;
-    bool good = weight_of(&s->used) + noise >= (double)br_joint_unknowns(law, unknown) + spare;
+    double weight = noise;
+    for (size_t i = 0; i < s->used.count; i++)
+        weight += s->used.cell[i].weight;
+    bool good = weight >= (double)br_joint_unknowns(law, unknown) + spare;
     for (int a = 0; a < BR_AXES; a++)
         good = good && (!br_joint_has(law->kind, a) ||
                         sizes_of(&s->used, a) >= (law->of[a] && s->now > 0 ? 4 : 3));
     return good;
 }
 
-/* ---- evidence ---- */
+/* ---- one model ---- */
 
-double br_akaike(double sum, size_t count, size_t unknowns)
-{
-    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
-    if (!(n > u + 1))
-        return INFINITY;
-    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
-}
-
-/* The logarithm of the determinant of a covariance, by Cholesky; NaN: it has none. */
-static double log_determinant(const double *covariance, size_t n)
-{
-    double l[BR_UNKNOWNS][BR_UNKNOWNS], sum = 0;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++) {
-            double left = covariance[i * n + j];
-            for (size_t k = 0; k < j; k++)
-                left -= l[i][k] * l[j][k];
-            l[i][j] = i == j ? sqrt(left) : left / l[j][j];
-            sum += i == j ? 2 * log(l[i][i]) : 0;
-        }
-    return sum;
-}
-
-static double log_evidence(const struct search *s, const struct candidate *c, size_t unknowns)
+static double log_evidence(const struct search *s, const struct candidate *c)
 {
     const struct br_joint_trial *t = &c->trial;
     double rounded = 0;
     for (size_t i = 0; i < s->used.count; i++)
         rounded += s->used.cell[i].weight * pow(s->used.cell[i].rounded, 2) / t->weight;
-    const double f = (double)c->freedom;
+    const double f = t->freedom;
     const double squares = t->sum + (pow(br_priors.least_scatter, 2) + rounded) * f;
-    return s->log_prior[c->window] + br_joint_log_prior(&s->all, t) + gsl_sf_lngamma(f / 2) -
-           f / 2 * log(M_PI * squares) + log_determinant(t->covariance, unknowns) / 2 -
+    return s->log_prior[c->window] + br_joint_log_prior(&s->all, t) + lgamma(f / 2) -
+           f / 2 * log(M_PI * squares) + t->log_determinant / 2 -
            log1p(sqrt(squares / f) / br_priors.usual_scatter);
-}
-
-/* What a known deviation adds to the scale of Student's distribution, so that it widens the 95 %
- * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
-static double of_known(double freedom)
-{
-    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }
 
 /* The values of a trial in m and s: a constant is that of the power, at a size of one. */
@@ -202,29 +176,22 @@ static void in_units(const struct search *s, const struct br_joint_trial *t,
 {
     memcpy(value, t->value, sizeof t->value);
     for (int a = 0; a < BR_AXES; a++)
-        value[LOG_C(a)] +=
-            s->log_error - value[ORDER(a)] * s->unit[a] - br_joint_bend(&s->used, t, a);
+        value[LOG_C(a)] += s->log_error - value[ORDER(a)] * s->unit[a] - t->bend[a];
     value[BR_LOG_F] += s->log_error;
 }
 
-/* Their deviations, and what is not known of an order beside them: a law is truncated, and printed
- * digits are rounded. free: the degrees of freedom. */
-static void set_deviations(const struct search *s, struct candidate *c, const int *unknown,
-                           size_t unknowns, double free)
+static void set_deviations(const struct search *s, struct candidate *c)
 {
-    const double *covariance = c->trial.covariance, residual = c->trial.sum / free;
-    for (size_t i = 0; i < unknowns; i++) {
-        const double *row = &covariance[i * unknowns];
-        double variance = row[i];
-        for (int a = 0; a < BR_AXES; a++) {
-            const double unit = s->unit[a], change = br_joint_change(&s->used, &c->trial, a);
-            if (unknown[i] == LOG_C(a) && unit != 0)
-                variance += unit * unit * row[unknowns + i + 1] - 2 * unit * row[i + 1];
-            if (unknown[i] == ORDER(a))
-                c->open[a] = hypot(c->trial.slope[a] * (1e-6 + br_priors.truncation * change +
-                                                        br_priors.next_term * change * change),
-                                   of_known(free) * c->trial.rounded[a]);
-        }
+    int unknown[BR_UNKNOWNS];
+    const struct br_joint_trial *t = &c->trial;
+    const size_t n = br_joint_unknowns(&t->law, unknown);
+    const double residual = t->sum / fmax(1, t->weight - (double)n);
+    for (size_t i = 0; i < n; i++) {
+        double variance = t->covariance[i][i];
+        for (int a = 0; a < BR_AXES; a++) /* the order is behind the constant */
+            if (unknown[i] == LOG_C(a) && s->unit[a] != 0)
+                variance += s->unit[a] * (s->unit[a] * t->covariance[i + 1][i + 1] -
+                                          2 * t->covariance[i][i + 1]);
         c->deviation[unknown[i]] = variance > 0 ? sqrt(residual * variance) : INFINITY;
     }
 }
@@ -239,43 +206,56 @@ static bool ends_at_a_floor(const struct br_joint_trial *t)
     return ends && br_joint_unknowns(&t->law, unknown) > 2;
 }
 
-/* Adds the fit of a law to the window, from the best of these starts. */
-static struct candidate *add_candidate(struct search *s, const struct br_joint_law *law,
-                                       const double (*start)[BR_UNKNOWNS], size_t starts)
+/* Exact errors alone show that an order changes: root mean square of residuals beyond rounding. */
+static bool is_exact(const struct search *s, const struct br_joint_trial *t, double least)
 {
-    int unknown[BR_UNKNOWNS];
+    double allowed = 0;
+    for (size_t i = 0; i < s->used.count; i++)
+        allowed += s->used.cell[i].weight * (least * least + 4 * pow(s->used.cell[i].rounded, 2));
+    return t->sum <= allowed;
+}
+
+static bool is_kinked(const struct br_joint_law *law)
+{
+    return (law->of[0] && law->of[0]->law == BR_LAW_KINK) ||
+           (law->of[1] && law->of[1]->law == BR_LAW_KINK);
+}
+
+/* Adds the fit of a law to the window, from the best of these starts. */
+static void add_candidate(struct search *s, const struct br_joint_law *law,
+                          const double (*start)[BR_UNKNOWNS], size_t starts)
+{
     struct candidate *c = &s->candidate[s->count];
     if (s->count == MOST_TRIALS || !enough(s, law))
-        return NULL;
-    *c = (struct candidate){.trial = {.sum = INFINITY}, .window = s->now};
+        return;
+    *c = (struct candidate){
+        .trial = {.sum = INFINITY}, .window = s->now, .log_weight = -INFINITY};
     for (size_t i = 0; i < starts; i++) {
         struct br_joint_trial t = {.law = *law, .sum = INFINITY};
         memcpy(t.value, start[i], sizeof t.value);
-        br_joint_descend(&s->used, 0, &t);
-        if (t.sum < c->trial.sum)
+        if (starts > 1)
+            br_joint_approach(&s->used, 0, &t);
+        if (i == 0 || t.sum < c->trial.sum)
             c->trial = t;
     }
-    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial))
-        return NULL;
-    const size_t unknowns = br_joint_unknowns(law, unknown);
-    const double free = c->trial.weight - (double)unknowns;
-    c->freedom = free >= 1 ? (size_t)(free + 1e-9) : 1;
-    set_deviations(s, c, unknown, unknowns, free);
+    br_joint_descend(&s->used, &c->trial);
     c->extras = (size_t)((law->of[0] != NULL) + (law->of[1] != NULL) + (law->floor != NULL));
-    c->log_weight = s->any_model ? log_evidence(s, c, unknowns)
-                                 : -br_akaike(c->trial.sum, s->used.count, unknowns) / 2;
-    if (!isfinite(c->log_weight))
-        return NULL;
-    s->best = fmax(s->best, c->log_weight);
     s->count++;
-    return c;
+    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial) ||
+        (is_kinked(law) && !is_exact(s, &c->trial, br_priors.least_curved)))
+        return;
+    int unknown[BR_UNKNOWNS];
+    set_deviations(s, c);
+    c->log_weight = s->any_model ? log_evidence(s, c)
+                                 : -br_akaike(c->trial.sum, s->used.count,
+                                              br_joint_unknowns(law, unknown)) /
+                                       2;
+    if (isnan(c->log_weight))
+        c->log_weight = -INFINITY;
+    s->best = fmax(s->best, c->log_weight);
 }
 
 /* ---- the search ---- */
-
-static const double orders[][BR_AXES] = {{1, 1}, {2, 1}, {4, 1}, {1, 4}, {4, 4}},
-                    correlations[] = {0, -0.9, 0.9};
-enum { STARTS = 15 };
 
 static const struct br_joint_law plain[] = {
     {.kind = BR_JOINT_BOTH, .sum = BR_SUM_ANY},
@@ -284,16 +264,18 @@ static const struct br_joint_law plain[] = {
     {.kind = BR_JOINT_BOTH, .sum = BR_SUM_ADDS},
     {.kind = BR_JOINT_BOTH, .sum = BR_SUM_SUBTRACTS},
 };
-enum { PLAIN = sizeof plain / sizeof *plain, KINDS = BR_JOINT_SPACE + 1 };
+enum { PLAIN = sizeof plain / sizeof *plain, KINDS = BR_JOINT_SPACE + 1, STARTS = 15 };
 
 /* The starts of one power: the sum of squares has local minima in r and p. */
 static size_t starts_of(const struct br_joint_cells *cells, const struct br_joint_law *law,
                         double (*start)[BR_UNKNOWNS])
 {
+    static const double orders[][BR_AXES] = {{1, 1}, {2, 2}, {4, 4}, {4, 1}, {1, 4}},
+                        correlations[] = {0, -0.9, 0.9};
+    const bool both = law->kind == BR_JOINT_BOTH;
     size_t count = 0;
-    const size_t turns = law->kind == BR_JOINT_BOTH && law->sum == BR_SUM_ANY ? 3 : 1;
-    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
-        for (size_t j = 0; j < turns; j++)
+    for (size_t i = 0; i < (both ? 5 : 3); i++)
+        for (size_t j = 0; j < (both && law->sum == BR_SUM_ANY ? 3 : 1); j++)
             br_joint_start(cells, orders[i], correlations[j], start[count++]);
     return count;
 }
@@ -304,25 +286,37 @@ static bool same_law(const struct br_joint_law *a, const struct br_joint_law *b)
            a->floor == b->floor;
 }
 
-/* Starts from those of a candidate with a law of these axes: a small next term, or one that is
- * larger than the first, so that a lower order comes up. */
-static void extend(struct search *s, const struct candidate *from, struct br_joint_law law,
-                   const struct br_family *family, int first, int last)
+static bool is_tried(const struct search *s, const struct br_joint_law *law)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->candidate[i].window == s->now && same_law(&s->candidate[i].trial.law, law))
+            return true;
+    return false;
+}
+
+/* Tries a law from the values of a candidate. axes: those with a new family, as bits. Its term is
+ * small, or larger than the first one, so that a lower order comes up. */
+static void extend(struct search *s, const struct candidate *from, const struct br_joint_law *law,
+                   int axes)
 {
     double start[2][BR_UNKNOWNS];
-    for (int a = first; a <= last; a++)
-        law.of[a] = family;
-    for (size_t i = 0; i < s->count; i++)
-        if (s->candidate[i].window == s->now && same_law(&s->candidate[i].trial.law, &law))
-            return;
+    bool two = false;
+    if (is_tried(s, law))
+        return;
     for (int i = 0; i < 2; i++) {
         memcpy(start[i], from->trial.value, sizeof *start);
-        for (int a = first; a <= last; a++) {
-            start[i][SHAPE(a)] = i ? 1.5 : br_joint_shape_start(family);
-            start[i][ORDER(a)] = fmax(0.3, start[i][ORDER(a)] - 0.5 * i * family->s);
+        for (int a = 0; a < BR_AXES; a++) {
+            const struct br_family *f = law->of[a];
+            double *v = &start[i][BR_OF_AXIS * a];
+            if (!(axes >> a & 1))
+                continue;
+            two |= f->law == BR_LAW_NEXT;
+            v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f);
+            v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * f->s);
+            v[BR_PLACE] = (f->low + f->high) / 2;
         }
     }
-    add_candidate(s, &law, start, first <= last && family->law == BR_LAW_NEXT ? 2 : 1);
+    add_candidate(s, law, start, two ? 2 : 1);
 }
 
 static bool is_of_axis(const struct br_family *f)
@@ -339,33 +333,78 @@ static bool is_floor(const struct br_family *f)
            (f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET);
 }
 
+/* All models that have one more law than a candidate; of the best one with laws of both axes also
+ * those with another law of one of them. */
+static void extend_by_all(struct search *s, const struct candidate *from)
+{
+    const bool bent = from->trial.law.of[0] && from->trial.law.of[1];
+    for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
+        for (int a = 0; a < BR_AXES && is_of_axis(f); a++) {
+            struct br_joint_law law = from->trial.law;
+            if (!br_joint_has(law.kind, a) || (law.of[a] && !bent))
+                continue;
+            law.of[a] = f;
+            extend(s, from, &law, 1 << a);
+        }
+        struct br_joint_law law = from->trial.law;
+        if (from->extras == 0 && is_of_axis(f) && f->law == BR_LAW_NEXT &&
+            law.kind == BR_JOINT_BOTH) {
+            law.of[0] = law.of[1] = f;
+            extend(s, from, &law, 3);
+        }
+        law = from->trial.law;
+        if (is_floor(f) && !law.floor && !bent) {
+            law.floor = f;
+            extend(s, from, &law, 0);
+        }
+    }
+}
+
+/* The same with orders that change. */
+static void extend_by_kinks(struct search *s, const struct candidate *from)
+{
+    for (size_t i = 0; i < s->kinks[1]; i++) {
+        const int a = i < s->kinks[0] ? 0 : 1;
+        struct br_joint_law law = from->trial.law;
+        if (!br_joint_has(law.kind, a) || law.of[a])
+            continue;
+        law.of[a] = &s->kink[i];
+        extend(s, from, &law, 1 << a);
+    }
+}
+
+static const struct candidate *likeliest(const struct search *s, size_t window)
+{
+    const struct candidate *best = NULL;
+    for (size_t i = 0; i < s->count; i++) {
+        const struct candidate *c = &s->candidate[i];
+        if ((c->window == window || window == MOST_WINDOWS) &&
+            (!best || c->log_weight > best->log_weight))
+            best = c;
+    }
+    return best;
+}
+
 /* Models that are less probable than the best one by more than this logarithm are not extended, nor
  * those with a law that are less probable than one without any (Occam's window). Of one power, all
  * that may be are. */
 static const double occam = 5, all_plain = 15;
 
-static void extend_all(struct search *s, size_t extras)
+/* Extends the candidates of the window from `first` on, also those that come so. */
+static void grow(struct search *s, size_t first, void (*by)(struct search *, const struct candidate *))
 {
-    double least = s->best - all_plain;
-    for (size_t i = 0; i < s->count && extras > 0; i++)
-        if (s->candidate[i].window == s->now && s->candidate[i].extras == 0)
-            least = fmax(fmax(least, s->best - occam), s->candidate[i].log_weight);
-    for (size_t i = 0, end = s->count; i < end; i++) {
+    double best_plain = -INFINITY;
+    for (size_t i = first; i < s->count; i++)
+        if (s->candidate[i].extras == 0)
+            best_plain = fmax(best_plain, s->candidate[i].log_weight);
+    for (size_t i = first; i < s->count; i++) {
         const struct candidate from = s->candidate[i];
-        if (from.window != s->now || from.extras != extras || from.log_weight < least)
-            continue;
-        for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
-            struct br_joint_law law = from.trial.law;
-            for (int a = 0; a < BR_AXES && is_of_axis(f); a++)
-                if (br_joint_has(law.kind, a) && !law.of[a])
-                    extend(s, &from, law, f, a, a);
-            if (extras == 0 && is_of_axis(f) && f->law == BR_LAW_NEXT && law.kind == BR_JOINT_BOTH)
-                extend(s, &from, law, f, 0, 1);
-            if (is_floor(f) && !law.floor) {
-                law.floor = f;
-                extend(s, &from, law, f, 1, 0);
-            }
-        }
+        const bool likely = from.extras == 0 ? from.log_weight > best_plain - all_plain
+                            : from.extras == 1
+                                ? from.log_weight > fmax(s->best - occam, best_plain)
+                                : false;
+        if (likely)
+            by(s, &from);
     }
 }
 
@@ -379,38 +418,24 @@ static void look_at(struct search *s, size_t window)
             s->used.cell[s->used.count++] = s->all.cell[i];
 }
 
-/* Of the best model of a window whose axes both have laws: each other law of each axis, beside the
- * law of the other axis. */
-static void exchange(struct search *s)
-{
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct candidate *best = NULL;
-        for (size_t i = 0; i < s->count; i++) {
-            const struct candidate *c = &s->candidate[i];
-            if (c->window == s->now && (!best || c->log_weight > best->log_weight))
-                best = c;
-        }
-        if (!best || !best->trial.law.of[0] || !best->trial.law.of[1])
-            return;
-        const struct candidate from = *best;
-        for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
-            struct br_joint_law law = from.trial.law;
-            if (is_of_axis(f))
-                extend(s, &from, law, f, axis, axis);
-        }
-    }
-}
-
 static void search_window(struct search *s, size_t window)
 {
+    static const double exact = 1e-5; /* no other law is needed */
     double start[STARTS][BR_UNKNOWNS];
+    const size_t first = s->count;
     look_at(s, window);
     for (size_t i = 0; i < (s->any_model ? PLAIN : KINDS); i++)
         add_candidate(s, &plain[i], start, starts_of(&s->used, &plain[i], start));
-    for (size_t extras = 0; extras < 2 && s->any_model; extras++)
-        extend_all(s, extras);
-    for (int turn = 0; turn < 2 && s->any_model; turn++)
-        exchange(s);
+    if (!s->any_model || s->count == first)
+        return;
+    grow(s, first, extend_by_all);
+    if (!is_exact(s, &likeliest(s, window)->trial, exact))
+        grow(s, first, extend_by_kinks);
+    for (int turn = 0; turn < 2; turn++) {
+        const struct candidate best = *likeliest(s, window);
+        if (best.trial.law.of[0] && best.trial.law.of[1])
+            extend_by_all(s, &best);
+    }
 }
 
 /* The models of the first windows that are not ruled out, fitted to another one. */
@@ -419,17 +444,20 @@ static void refit_window(struct search *s, size_t window, size_t count)
     look_at(s, window);
     for (size_t i = 0; i < count; i++) {
         const struct candidate *from = &s->candidate[i];
-        bool known = !(from->log_weight > s->best - occam || from->extras == 0);
-        for (size_t j = count; j < s->count && !known; j++)
-            known = s->candidate[j].window == window &&
-                    same_law(&s->candidate[j].trial.law, &from->trial.law);
-        if (!known)
+        if (isfinite(from->log_weight) && (from->log_weight > s->best - occam || from->extras == 0) &&
+            !is_tried(s, &from->trial.law))
             add_candidate(s, &from->trial.law, (const double(*)[BR_UNKNOWNS]) & from->trial.value,
                           1);
     }
 }
 
 /* ---- windows ---- */
+
+static bool *open_window(struct search *s)
+{
+    memset(s->out[s->windows], 0, s->all.count * sizeof *s->out[0]);
+    return s->out[s->windows];
+}
 
 /* The prior of the cells that are out; of a size as a whole: it counts once. */
 static void close_window(struct search *s, double share)
@@ -445,25 +473,11 @@ static void close_window(struct search *s, double share)
     s->windows += out > 0 || s->windows == 0;
 }
 
-static bool *open_window(struct search *s)
-{
-    memset(s->out[s->windows], 0, s->all.count * sizeof *s->out[0]);
-    return s->out[s->windows];
-}
-
-static const struct candidate *likeliest(const struct search *s)
-{
-    size_t best = 0;
-    for (size_t i = 1; i < s->count; i++)
-        best = s->candidate[i].log_weight > s->candidate[best].log_weight ? i : best;
-    return &s->candidate[best];
-}
-
 /* So far off, in logarithms, a cell does not show the order. */
 static const double far = 0.5;
 
 /* The window without cells that are far off what the others show, at most a quarter of all. */
-static void leave_out_far(struct search *s, double *room)
+static void leave_out_far(struct search *s)
 {
     static const double robust = 0.1;
     double start[STARTS][BR_UNKNOWNS];
@@ -475,17 +489,17 @@ static void leave_out_far(struct search *s, double *room)
             struct br_joint_trial t = {.law = plain[i], .sum = INFINITY};
             memcpy(t.value, start[j], sizeof t.value);
             for (double scale = 10 * robust; scale >= robust; scale /= 3)
-                br_joint_descend(&s->used, scale, &t);
+                br_joint_approach(&s->used, scale, &t);
             if (t.sum < best.sum)
                 best = t;
         }
     if (!isfinite(best.sum))
         return;
-    br_joint_residuals(&s->used, &best, room);
+    br_joint_residuals(&s->used, &best, s->residual);
     bool *out = open_window(s);
     size_t count = 0;
     for (size_t i = 0; i < s->all.count; i++)
-        count += out[i] = fabs(room[i]) > far;
+        count += out[i] = fabs(s->residual[i]) > far;
     if (count > 0 && 4 * count <= s->all.count)
         close_window(s, pow(br_priors.leaves_inside, (double)count));
 }
@@ -509,22 +523,45 @@ static void leave_out_coarse(struct search *s, size_t from)
     }
 }
 
-static void search_all(struct search *s, double *room)
+static void search_all(struct search *s)
 {
     open_window(s);
     close_window(s, 1);
     search_window(s, 0);
     if (!s->any_model || s->count == 0)
         return;
-    if (likeliest(s)->trial.worst > far / 2)
-        leave_out_far(s, room);
+    if (likeliest(s, 0)->trial.worst > far / 2)
+        leave_out_far(s);
     s->has_far = s->windows > 1;
     if (s->has_far)
         search_window(s, 1);
     const size_t first = s->windows, count = s->count;
-    leave_out_coarse(s, likeliest(s)->window);
+    leave_out_coarse(s, likeliest(s, MOST_WINDOWS)->window);
     for (size_t w = first; w < s->windows; w++)
         refit_window(s, w, count);
+}
+
+/* Orders that change: at a size, or between two, with two rates of coarse sizes and one of fine
+ * ones. As on lines, that of the coarse ones may count where these are more, or the others few. */
+static void make_kinks(struct search *s)
+{
+    enum { FEW = 3 };
+    size_t count = 0;
+    for (int a = 0; a < BR_AXES; s->kinks[a++] = count) {
+        const size_t m = s->all.sizes[a] - 1;
+        const struct br_joint_size *size = s->all.size[a];
+        for (size_t i = 3; m < MOST_SIZES && i < 2 * m; i++) { /* odd: between i/2 and i/2 + 1 */
+            const size_t j = i / 2, between = i % 2, fine = j - 1 + between;
+            if (fine < 1 || m - j < 2)
+                continue;
+            s->kink[count++] = (struct br_family){
+                .law = BR_LAW_KINK,
+                .s = fine <= FEW || m - j >= fine ? br_priors.kink_coarse : 0,
+                .low = size[j].log_x,
+                .high = size[j + between].log_x,
+                .prior = br_priors.kink / (double)m};
+        }
+    }
 }
 
 /* ---- intervals ---- */
@@ -534,28 +571,28 @@ static void search_all(struct search *s, double *room)
 static double structure_of(const struct br_joint_cells *cells, const double *residual)
 {
     double products = 0, pairs = 0, squares = 0;
-    for (const struct br_joint_cell *at = cells->cell; at < cells->cell + cells->count; at++) {
-        squares += pow(residual[at - cells->cell], 2) / (double)cells->count;
+    for (size_t i = 0; i < cells->count; i++) {
+        const struct br_joint_cell *at = &cells->cell[i];
+        squares += residual[i] * residual[i] / (double)cells->count;
         for (int a = 0; a < BR_AXES; a++) {
-            const struct br_joint_cell *next = NULL;
-            for (const struct br_joint_cell *o = cells->cell; o < cells->cell + cells->count; o++)
-                if (o->at[1 - a] == at->at[1 - a] && o->at[a] < at->at[a] &&
-                    (!next || o->at[a] > next->at[a]))
-                    next = o;
-            if (!next)
-                continue;
-            products += residual[at - cells->cell] * residual[next - cells->cell];
-            pairs++;
+            size_t next = cells->count, size = 0;
+            for (size_t j = 0; j < cells->count; j++) {
+                const struct br_joint_cell *o = &cells->cell[j];
+                if (o->at[1 - a] == at->at[1 - a] && o->at[a] < at->at[a] && o->at[a] > size) {
+                    size = o->at[a];
+                    next = j;
+                }
+            }
+            products += next < cells->count ? residual[i] * residual[next] : 0;
+            pairs += next < cells->count;
         }
     }
     return pairs > 0 && squares > 0 ? products / squares / sqrt(pairs) : 0;
 }
 
-/* Residuals with less structure than this are as independent as noise is. */
-static const double waves = 0.7;
-
-/* Residuals below this do not scatter. */
-static const double exact = 1e-4;
+/* Residuals with less structure than this are as independent as noise is. Those below `exact` do
+ * not scatter. */
+static const double waves = 0.7, exact = 1e-4;
 
 /* Cells that share h or k are not independent: the residuals are deterministic. So the intervals
  * come from leaving out one whole line of the grid after the other (delete-a-group jackknife, Efron
@@ -567,7 +604,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
     in_units(s, &c->trial, whole);
     const size_t unknowns = br_joint_unknowns(&c->trial.law, unknown);
     struct br_joint_cells rest = s->used;
-    rest.cell = s->room;
+    rest.cell = s->rest;
     for (size_t size = 1; size < s->used.sizes[axis]; size++) {
         rest.count = 0;
         for (size_t i = 0; i < s->used.count; i++)
@@ -578,7 +615,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
         struct br_joint_trial without = c->trial;
         without.sum = INFINITY;
         if (rest.count > unknowns)
-            br_joint_descend(&rest, 0, &without);
+            br_joint_descend(&rest, &without);
         double value[BR_UNKNOWNS];
         in_units(s, &without, value);
         for (size_t i = 0; i < unknowns; i++) {
@@ -590,7 +627,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
         groups++;
     }
     const double quantiles =
-        gsl_cdf_tdist_Pinv(0.975, groups - 1) / gsl_cdf_tdist_Pinv(0.975, (double)c->freedom);
+        gsl_cdf_tdist_Pinv(0.975, groups - 1) / gsl_cdf_tdist_Pinv(0.975, c->trial.freedom);
     for (size_t i = 0; i < unknowns; i++) {
         const double spread = squares[i] - sum[i] * sum[i] / groups;
         const double deviation = sqrt((groups - 1) / groups * fmax(0, spread)) * quantiles;
@@ -599,74 +636,77 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
     }
 }
 
-static void widen(struct search *s, struct candidate *c, double *room)
+static void widen(struct search *s, struct candidate *c)
 {
-    if (c->widened)
+    const struct br_joint_law *law = &c->trial.law;
+    if (c->widened || is_kinked(law))
         return;
     look_at(s, c->window);
-    br_joint_residuals(&s->used, &c->trial, room);
-    const bool bent = c->trial.law.of[0] || c->trial.law.of[1];
+    br_joint_residuals(&s->used, &c->trial, s->residual);
     const bool noise = c->trial.sum > exact * exact * c->trial.weight;
-    if (s->any_model && (noise || !bent) && structure_of(&s->used, room) < waves)
+    if (s->any_model && (noise || !(law->of[0] || law->of[1])) &&
+        structure_of(&s->used, s->residual) < waves)
         return;
     for (int a = 0; a < BR_AXES; a++)
-        if (br_joint_has(c->trial.law.kind, a))
+        if (br_joint_has(law->kind, a))
             widen_along(s, c, a);
     c->widened = true;
 }
 
-static const double most_scatter = 0.3, most_structure = 1;
+/* ---- what one model makes of the errors ---- */
+
+/* A number with its interval by the deviation of an unknown; NaN: there is none. */
+static struct br_estimate estimate(const struct candidate *c, bool has, double value, int unknown)
+{
+    return br_estimate_of(has ? value : (double)NAN, c->deviation[unknown],
+                          (size_t)c->trial.freedom);
+}
 
 /* r with its interval by the slope of the sine, within [-1, 1]. */
-static struct br_estimate correlation(const struct candidate *c, double theta)
+static struct br_estimate correlation(const struct candidate *c)
 {
     static const double fixed[BR_SUMS] = {[BR_SUM_ADDS] = 1, [BR_SUM_SUBTRACTS] = -1};
-    const double r = fixed[c->trial.law.sum];
-    if (c->trial.law.kind != BR_JOINT_BOTH)
-        return (struct br_estimate){NAN, NAN, NAN};
-    if (c->trial.law.sum != BR_SUM_ANY)
+    const struct br_joint_law *law = &c->trial.law;
+    const double theta = c->trial.value[BR_THETA], r = fixed[law->sum];
+    if (law->kind == BR_JOINT_BOTH && law->sum != BR_SUM_ANY)
         return (struct br_estimate){r, r, r};
-    struct br_estimate e =
-        br_estimate_of(sin(theta), fabs(cos(theta)) * c->deviation[BR_THETA], c->freedom);
-    e.low = e.low < -1 ? -1 : e.low; /* NaN stays */
-    e.high = e.high > 1 ? 1 : e.high;
+    struct br_estimate e = estimate(c, law->kind == BR_JOINT_BOTH, theta, BR_THETA);
+    const double half = fabs(cos(theta)) * (e.high - e.value);
+    e.value = sin(e.value);
+    e.low = e.value - half < -1 ? -1 : e.value - half; /* NaN stays */
+    e.high = e.value + half > 1 ? 1 : e.value + half;
     return e;
 }
 
-/* A mean square below this is that of round-off. */
-static const double round_off = 1e-24;
-
-/* What one model makes of the errors, in m and s. */
-static void describe(struct search *s, const struct candidate *c, double *room,
-                     struct br_joint_fit *fit)
+static void describe(struct search *s, const struct candidate *c, struct br_joint_fit *fit)
 {
+    static const double most_scatter = 0.3, most_structure = 1;
+    static const double round_off = 1e-24; /* a mean square below this */
     const struct br_joint_trial *t = &c->trial;
     double mean = 0, total = 0, value[BR_UNKNOWNS];
     in_units(s, t, value);
     look_at(s, c->window);
-    *fit = (struct br_joint_fit){.kind = t->law.kind,
-                                 .converged = true,
-                                 .points = s->used.count,
-                                 .left_out = s->all.count - s->used.count,
-                                 .freedom = c->freedom,
-                                 .worst = t->worst,
-                                 .misfit =
-                                     round_off < t->sum / t->weight ? sqrt(t->sum / t->weight) : 0,
-                                 .r = correlation(c, value[BR_THETA]),
-                                 .floor = t->law.floor ? exp(value[BR_LOG_F]) : (double)NAN};
-    br_joint_residuals(&s->used, t, room);
+    *fit = (struct br_joint_fit){
+        .kind = t->law.kind,
+        .converged = true,
+        .points = s->used.count,
+        .left_out = s->all.count - s->used.count,
+        .freedom = (size_t)t->freedom,
+        .worst = t->worst,
+        .misfit = t->sum / t->weight > round_off ? sqrt(t->sum / t->weight) : 0,
+        .r = correlation(c),
+        .floor = t->law.floor ? exp(value[BR_LOG_F]) : (double)NAN};
+    br_joint_residuals(&s->used, t, s->residual);
     for (int a = 0; a < BR_AXES; a++) {
         const bool has = br_joint_has(t->law.kind, a);
-        fit->share[a] = br_joint_share(&s->used, a);
-        const double none = has ? 0 : NAN;
-        const struct br_estimate log_c =
-            br_estimate_of(value[LOG_C(a)] + none, c->deviation[LOG_C(a)], c->freedom);
-        fit->c[a] = (struct br_estimate){exp(log_c.value), exp(log_c.low), exp(log_c.high)};
+        struct br_estimate e = estimate(c, has, value[LOG_C(a)], LOG_C(a));
+        fit->c[a] = (struct br_estimate){exp(e.value), exp(e.low), exp(e.high)};
         if (t->law.of[a]) /* its deviation is that of the error at the coarsest size */
             fit->c[a].low = fit->c[a].high = NAN;
-        fit->order[a] = br_estimate_of(value[ORDER(a)] + none, c->deviation[ORDER(a)], c->freedom);
-        fit->low99[a] = fit->order[a].low;
-        fit->high99[a] = fit->order[a].high;
+        e = fit->order[a] = estimate(c, has, value[ORDER(a)], ORDER(a));
+        fit->low99[a] = e.low;
+        fit->high99[a] = e.high;
+        fit->share[a] = br_joint_share(&s->used, a);
         fit->law[a] = has && t->law.of[a] ? br_law_text(t->law.of[a]->law) : NULL;
     }
     for (size_t i = 0; i < s->used.count; i++)
@@ -675,7 +715,7 @@ static void describe(struct search *s, const struct candidate *c, double *room,
         total += pow(s->used.cell[i].log_error - mean, 2);
     fit->r_squared = total > 0 ? 1 - t->sum / total : NAN;
     fit->scatters = s->any_model && fit->misfit <= most_scatter &&
-                    structure_of(&s->used, room) <= most_structure;
+                    structure_of(&s->used, s->residual) <= most_structure;
 }
 
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
@@ -699,84 +739,104 @@ static int by_weight(const void *a, const void *b)
     return (x->log_weight < y->log_weight) - (x->log_weight > y->log_weight);
 }
 
-/* Whether all orders of the model are determined. */
-static bool all_determined(const struct br_joint_fit *fit)
-{
-    bool determined = true;
-    for (int a = 0; a < BR_AXES; a++)
-        determined &= !br_joint_has(fit->kind, a) || br_order_determined(&fit->order[a]);
-    return determined;
-}
-
 static bool one_determined(const struct br_joint_fit *fit)
 {
     return br_order_determined(&fit->order[0]) || br_order_determined(&fit->order[1]);
 }
 
+/* Whether all orders of the model are determined. */
+static bool all_determined(const struct br_joint_fit *fit)
+{
+    return (!br_joint_has(fit->kind, 0) || br_order_determined(&fit->order[0])) &&
+           (!br_joint_has(fit->kind, 1) || br_order_determined(&fit->order[1]));
+}
+
 /* The best model whose orders are determined; else that of both errors, if one of them is. */
-static void take_one(struct search *s, double *room, struct br_joint_fit *fit)
+static void take_one(struct search *s, struct br_joint_fit *fit)
 {
     struct br_joint_fit one;
     for (size_t i = 0; i < s->count && !fit->converged; i++) {
-        describe(s, &s->candidate[i], room, &one);
+        describe(s, &s->candidate[i], &one);
         if (!all_determined(&one))
             continue;
-        widen(s, &s->candidate[i], room);
-        describe(s, &s->candidate[i], room, &one);
+        widen(s, &s->candidate[i]);
+        describe(s, &s->candidate[i], &one);
         *fit = all_determined(&one) ? one : *fit;
     }
     for (size_t i = 0; i < s->count && !br_joint_describes(fit); i++) {
         if (s->candidate[i].trial.law.kind != BR_JOINT_BOTH)
             continue;
-        widen(s, &s->candidate[i], room);
-        describe(s, &s->candidate[i], room, &one);
+        widen(s, &s->candidate[i]);
+        describe(s, &s->candidate[i], &one);
         if (br_joint_describes(&one) && one_determined(&one))
             *fit = one;
         return;
     }
 }
 
-static double scale_of(const struct candidate *c, int axis)
+/* Student's distribution of whole freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). */
+static double student_below(double t, double freedom)
 {
-    return hypot(c->deviation[ORDER(axis)], c->open[axis]);
+    const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
+    const bool odd = fmod(freedom, 2) > 0;
+    double term = odd ? sqrt(square) : 1, sum = 0;
+    for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
+        sum += term;
+        term *= square * (k - 1) / k;
+    }
+    return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
+}
+
+/* The probability that the order of an axis is below this one, by one model. */
+static double below(const struct candidate *c, int axis, double order)
+{
+    const struct br_family *f = c->trial.law.of[axis];
+    const double scale = hypot(c->deviation[ORDER(axis)], c->trial.open[axis]),
+                 off = order - c->trial.value[ORDER(axis)],
+                 coarse = f && f->law == BR_LAW_KINK ? f->s : 0;
+    if (!isfinite(scale))
+        return 0.5;
+    double sum = (1 - coarse) * student_below(off / scale, c->trial.freedom);
+    if (coarse > 0)
+        sum += coarse * student_below((off - c->trial.value[ORDER(axis) - BR_ORDER + BR_SHAPE]) /
+                                          scale,
+                                      c->trial.freedom);
+    return sum;
 }
 
 /* The order of an axis below which this share of the mixture is. */
 static double quantile(const struct search *s, int axis, double all, double share)
 {
     double low = -60, high = 60;
-    for (int turn = 0; turn < 60 && high - low > 1e-12; turn++) {
+    while (high - low > 1e-9) {
         const double at = (low + high) / 2;
-        double below = 0;
-        for (size_t i = 0; i < s->count; i++) {
-            const struct candidate *c = &s->candidate[i];
-            const double scale = scale_of(c, axis), off = at - c->trial.value[ORDER(axis)];
-            if (br_joint_has(c->trial.law.kind, axis))
-                below += c->log_weight *
-                         (isfinite(scale) ? gsl_cdf_tdist_P(off / scale, (double)c->freedom) : 0.5);
-        }
-        *(below < share * all ? &low : &high) = at;
+        double sum = 0;
+        for (size_t i = 0; i < s->count; i++)
+            if (br_joint_has(s->candidate[i].trial.law.kind, axis))
+                sum += s->candidate[i].log_weight * below(&s->candidate[i], axis, at);
+        *(sum < share * all ? &low : &high) = at;
     }
     return (low + high) / 2;
 }
 
-/* Models of less weight than this are not kept, and of less than that not widened. */
+/* Models of less weight than this logarithm below the best are not kept, and of less than that not
+ * widened. */
 static const double kept = 8.5, widened = 0.02;
 
 /* The mixture: from logarithms to weights of sum 1. An axis whose error most of the weight does not
  * see has no order. */
-static void take_mixture(struct search *s, double *room, struct br_joint_fit *fit)
+static void take_mixture(struct search *s, struct br_joint_fit *fit)
 {
     double sum = 0, sees[BR_AXES] = {0};
-    for (size_t i = 0; i < s->count; i++) {
-        s->count = s->candidate[i].log_weight < s->best - kept ? i : s->count;
-        sum += i < s->count ? exp(s->candidate[i].log_weight - s->best) : 0;
-    }
-    for (size_t i = 0; i < s->count; i++) {
+    size_t count = 0;
+    while (count < s->count && s->candidate[count].log_weight >= s->best - kept)
+        sum += exp(s->candidate[count++].log_weight - s->best);
+    s->count = count;
+    for (size_t i = 0; i < count; i++) {
         struct candidate *c = &s->candidate[i];
         c->log_weight = exp(c->log_weight - s->best) / sum;
         if (c->log_weight > widened)
-            widen(s, c, room);
+            widen(s, c);
         for (int a = 0; a < BR_AXES; a++)
             sees[a] += br_joint_has(c->trial.law.kind, a) ? c->log_weight : 0;
     }
@@ -784,9 +844,9 @@ static void take_mixture(struct search *s, double *room, struct br_joint_fit *fi
                                     : sees[BR_AXIS_TIME] < 0.5 ? BR_JOINT_SPACE
                                                                : BR_JOINT_BOTH;
     size_t likely = 0;
-    while (likely + 1 < s->count && s->candidate[likely].trial.law.kind != kind)
+    while (likely + 1 < count && s->candidate[likely].trial.law.kind != kind)
         likely++;
-    describe(s, &s->candidate[likely], room, fit);
+    describe(s, &s->candidate[likely], fit);
     for (int a = 0; a < BR_AXES; a++) {
         if (!br_joint_has(fit->kind, a))
             continue;
@@ -823,56 +883,63 @@ static void flag_cells(const struct search *s, struct br_observation *observatio
                                                            : BR_FLAG_COARSE;
 }
 
-/* All memory of a search of so many cells; false: there is none. */
-static bool make_room(struct search *s, size_t count)
+/* All memory of a search; false: there is none. */
+static bool make_room(struct search *s)
 {
+    const size_t count = s->all.count;
     s->all.cell = br_allocate(3 * count + 1, sizeof *s->all.cell);
     s->all.size[0] = br_allocate(4 * count + 4, sizeof *s->all.size[0]);
     s->all.room = br_allocate(br_joint_room(count) + 2 * count, sizeof *s->all.room);
     s->out[0] = br_allocate(MOST_WINDOWS * count + 1, sizeof *s->out[0]);
     s->candidate = br_allocate(MOST_TRIALS, sizeof *s->candidate);
-    if (!s->all.cell || !s->all.size[0] || !s->all.room || !s->out[0] || !s->candidate)
+    s->kink = br_allocate(4 * MOST_SIZES, sizeof *s->kink);
+    if (!s->all.cell || !s->all.size[0] || !s->all.room || !s->out[0] || !s->candidate || !s->kink)
         return false;
     for (size_t i = 1; i < MOST_WINDOWS; i++)
         s->out[i] = s->out[0] + i * count;
     s->all.size[1] = s->all.size[0] + 2 * count + 2;
-    s->used = s->all;
-    s->used.cell = s->all.cell + count;
-    s->room = s->used.cell + count;
+    s->residual = s->all.room + br_joint_room(count);
     return true;
+}
+
+static void fit_all(struct search *s, struct br_observation *observation, struct br_joint_fit *fit)
+{
+    take_cells(s, observation);
+    make_kinks(s);
+    s->used = s->all;
+    s->used.cell = s->all.cell + s->all.count;
+    s->rest = s->used.cell + s->all.count;
+    search_all(s);
+    qsort(s->candidate, s->count, sizeof *s->candidate, by_weight);
+    while (s->count && !isfinite(s->candidate[s->count - 1].log_weight))
+        s->count--;
+    if (s->count && s->any_model)
+        take_mixture(s, fit);
+    else
+        take_one(s, fit);
+    if (!one_determined(fit))
+        *fit = nothing_fitted(s->all.count);
+    flag_cells(s, observation);
 }
 
 enum br_status br_joint_fit_solve(struct br_observation *observation, size_t count, bool any_model,
                                   const struct br_observer *observer, struct br_joint_fit *fit,
                                   struct br_error *err)
 {
-    struct search s = {.any_model = any_model, .best = -INFINITY};
+    struct search s = {
+        .any_model = any_model,
+        .best = -INFINITY,
+        .all = {.count = count, .priors = any_model, .observer = observer}};
     *fit = nothing_fitted(count);
-    s.all.count = count;
-    s.all.priors = any_model;
-    s.all.observer = observer;
-    enum br_status status = make_room(&s, count) ? BR_OK : br_no_memory(err, "the fits");
-    if (!status && count > 0) {
-        double *room = s.all.room + br_joint_room(count);
-        take_cells(&s, observation, room);
-        struct br_joint_cell *const own = s.used.cell;
-        s.used = s.all;
-        s.used.cell = own;
-        search_all(&s, room);
-        qsort(s.candidate, s.count, sizeof *s.candidate, by_weight);
-        if (s.count && any_model)
-            take_mixture(&s, room, fit);
-        else
-            take_one(&s, room, fit);
-        if (!one_determined(fit))
-            *fit = nothing_fitted(count);
-        flag_cells(&s, observation);
-    }
+    const enum br_status status = make_room(&s) ? BR_OK : br_no_memory(err, "the fits");
+    if (!status && count > 0)
+        fit_all(&s, observation, fit);
     free(s.all.cell);
     free(s.all.size[0]);
     free(s.all.room);
     free(s.out[0]);
     free(s.candidate);
+    free(s.kink);
     if (!status && br_observer_stops(observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     return status;
