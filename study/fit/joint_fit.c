@@ -310,9 +310,12 @@ static void extend(struct search *s, const struct candidate *from, const struct 
             double *v = &start[i][BR_OF_AXIS * a];
             if (!(axes >> a & 1))
                 continue;
-            two |= f->law == BR_LAW_NEXT;
+            const bool kink = f->law == BR_LAW_KINK;
+            two |= kink || f->law == BR_LAW_NEXT;
             v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f);
-            v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * f->s);
+            v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * (kink ? 1 : f->s));
+            if (kink && i)
+                start[i][BR_THETA] = 0;
             v[BR_PLACE] = (f->low + f->high) / 2;
         }
     }
@@ -391,7 +394,7 @@ static const struct candidate *likeliest(const struct search *s, size_t window)
 static const double occam = 5, all_plain = 15;
 
 /* Extends the candidates of the window from `first` on, also those that come so. */
-static void grow(struct search *s, size_t first, void (*by)(struct search *, const struct candidate *))
+static void grow(struct search *s, size_t first, double margin, void (*by)(struct search *, const struct candidate *))
 {
     double best_plain = -INFINITY;
     for (size_t i = first; i < s->count; i++)
@@ -399,7 +402,7 @@ static void grow(struct search *s, size_t first, void (*by)(struct search *, con
             best_plain = fmax(best_plain, s->candidate[i].log_weight);
     for (size_t i = first; i < s->count; i++) {
         const struct candidate from = s->candidate[i];
-        const bool likely = from.extras == 0 ? from.log_weight > best_plain - all_plain
+        const bool likely = from.extras == 0 ? !(from.log_weight < best_plain - margin)
                             : from.extras == 1
                                 ? from.log_weight > fmax(s->best - occam, best_plain)
                                 : false;
@@ -418,9 +421,18 @@ static void look_at(struct search *s, size_t window)
             s->used.cell[s->used.count++] = s->all.cell[i];
 }
 
+/* Whether a bent axis has no more sizes than unknowns: another law may go through them as well. */
+static bool goes_through_all(const struct search *s, const struct br_joint_law *law)
+{
+    for (int a = 0; a < BR_AXES; a++)
+        if (law->of[a] && sizes_of(&s->used, a) <= (law->floor ? 4 : 3))
+            return true;
+    return false;
+}
+
 static void search_window(struct search *s, size_t window)
 {
-    static const double exact = 1e-5; /* no other law is needed */
+    static const double exact = 1e-6; /* no other law is needed */
     double start[STARTS][BR_UNKNOWNS];
     const size_t first = s->count;
     look_at(s, window);
@@ -428,9 +440,10 @@ static void search_window(struct search *s, size_t window)
         add_candidate(s, &plain[i], start, starts_of(&s->used, &plain[i], start));
     if (!s->any_model || s->count == first)
         return;
-    grow(s, first, extend_by_all);
-    if (!is_exact(s, &likeliest(s, window)->trial, exact))
-        grow(s, first, extend_by_kinks);
+    grow(s, first, all_plain, extend_by_all);
+    const struct br_joint_trial *smooth = &likeliest(s, window)->trial;
+    if (!is_exact(s, smooth, exact) || goes_through_all(s, &smooth->law))
+        grow(s, first, INFINITY, extend_by_kinks);
     for (int turn = 0; turn < 2; turn++) {
         const struct candidate best = *likeliest(s, window);
         if (best.trial.law.of[0] && best.trial.law.of[1])

@@ -87,8 +87,7 @@ static bool allowed(const struct br_joint_law *law, const double value[BR_UNKNOW
             continue;
         if (!(v[BR_ORDER] > least && v[BR_ORDER] < most_order && fabs(shape) < 12))
             return false;
-        if (f && f->law == BR_LAW_KINK ? !(v[BR_PLACE] >= f->low && v[BR_PLACE] <= f->high &&
-                                           v[BR_ORDER] + shape > least)
+        if (f && f->law == BR_LAW_KINK  ? !(v[BR_ORDER] + shape > least)
             : f && f->law != BR_LAW_NEXT ? !(shape > log(f->low) && shape < log(f->high))
                                          : false)
             return false;
@@ -285,12 +284,17 @@ static double evaluate(struct br_joint_cells *cells, const struct br_joint_law *
     return isfinite(sum) ? sum : INFINITY;
 }
 
+/* In four sums, which need not wait for each other. */
 static double dot(const double *a, const double *b, size_t n)
 {
-    double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += a[i] * b[i];
-    return sum;
+    double sum[4] = {0};
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (size_t j = 0; j < 4; j++)
+            sum[j] += a[i + j] * b[i + j];
+    for (; i < n; i++)
+        sum[0] += a[i] * b[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /* Least squares by modified Gram-Schmidt, the right side as one more column (Bjorck, BIT 7, 1-21,
@@ -300,15 +304,14 @@ static void solve(const struct equations *e, double *a, size_t rows,
 {
     const size_t n = e->unknowns;
     for (size_t k = 0; k < n; k++) {
-        double *q = a + k * e->stride;
-        r[k][k] = sqrt(dot(q, q, rows));
-        for (size_t i = 0; i < rows && r[k][k] > 0; i++)
-            q[i] /= r[k][k];
+        const double *q = a + k * e->stride, square = dot(q, q, rows);
+        r[k][k] = sqrt(square);
         for (size_t j = k + 1; j <= n; j++) {
             double *of = a + j * e->stride;
-            r[k][j] = dot(q, of, rows);
+            const double share = square > 0 ? dot(q, of, rows) / square : 0;
+            r[k][j] = share * r[k][k];
             for (size_t i = 0; i < rows; i++)
-                of[i] -= r[k][j] * q[i];
+                of[i] -= share * q[i];
         }
     }
     for (size_t k = n; k-- > 0;) {
@@ -353,6 +356,11 @@ static void minimise(struct br_joint_cells *cells, struct equations *e, struct b
         for (size_t j = 0; j < n; j++) {
             next[e->unknown[j]] += step[j];
             most = fmax(most, fabs(step[j]));
+        }
+        for (int a = 0; a < BR_AXES; a++) {
+            double *place = &next[OF(a, BR_PLACE)];
+            if (t->law.of[a] && t->law.of[a]->law == BR_LAW_KINK)
+                *place = fmin(fmax(*place, t->law.of[a]->low), t->law.of[a]->high);
         }
         const double then = evaluate(cells, &t->law, e, next, e->next);
         if (then <= now) {

@@ -106,7 +106,7 @@ static inline double br_grid_change(struct br_random *r, const struct br_grid_la
     g->order[axis] -= br_random_uniform(r, 0.4, 1);
     const double from = law->changes == BR_GRID_KINK ? 1 + (double)br_random_index(r, 2)
                                                      : br_random_uniform(r, least, 2.9);
-    return pow(2, fmin(from, sizes - 2) + 1 - sizes);
+    return pow(2, fmin(from, sizes - 3) + 1 - sizes);
 }
 
 /* Multiplies cells of a full grid: those of the largest k at the finest meshes, or any. */
