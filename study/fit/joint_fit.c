@@ -41,27 +41,40 @@ enum { MOST_TRIALS = 600, MOST_WINDOWS = 12, MOST_SIZES = 64 };
 
 struct candidate {
     struct br_joint_trial trial;
-    double log_weight; /* of the mixture, then the weight; -infinite: there is no fit */
+    double log_weight;             /* of the mixture, then the weight; -infinite: there is no fit */
     double deviation[BR_UNKNOWNS]; /* of values in m and s */
-    size_t window, extras;
+    size_t window, laws;           /* laws: how many bend a power, or are a floor */
     bool widened;
+};
+
+/* The cells that count: without those that are far off what the others show, and without so many
+ * of the coarsest sizes. */
+struct window {
+    bool far;
+    size_t lost[BR_AXES];
+    double log_prior;
+};
+
+/* A law that an axis may have: a family of laws.h, or an order that changes along it. */
+struct option {
+    struct br_family family;
+    int axes; /* bits */
 };
 
 struct search {
     struct br_joint_cells all, used; /* all cells; those of a window */
     struct br_joint_cell *rest;      /* room for so many again, for the jackknife */
+    bool *far;                       /* of all cells */
     double *residual;                /* room for one of each cell */
     double unit[BR_AXES], log_error; /* of scaled sizes and errors: logarithms in m, s, m^(3/2) */
     bool any_model;
-    bool *out[MOST_WINDOWS]; /* what each window leaves out */
-    double log_prior[MOST_WINDOWS];
+    struct window window[MOST_WINDOWS];
     size_t windows, now;
-    bool has_far; /* the second window is that without cells that are far off */
     struct candidate *candidate;
     size_t count;
-    double best;             /* the largest log_weight */
-    struct br_family *kink;  /* orders that change at a size, or between two */
-    size_t kinks[BR_AXES];   /* up to that one they are of the first axis, then of the second */
+    double best; /* the largest log_weight */
+    struct option option[BR_FAMILIES + 4 * MOST_SIZES];
+    size_t smooth, options; /* those from `smooth` on are of orders that change */
 };
 
 static int by_value(const void *a, const void *b)
@@ -155,6 +168,59 @@ static bool enough(const struct search *s, const struct br_joint_law *law)
     return good;
 }
 
+/* Whether a window has cell i not. */
+static bool is_out(const struct search *s, const struct window *w, size_t i)
+{
+    const struct br_joint_cell *c = &s->all.cell[i];
+    return (w->far && s->far[i]) || c->at[0] + w->lost[0] >= s->all.sizes[0] ||
+           c->at[1] + w->lost[1] >= s->all.sizes[1];
+}
+
+static void add_window(struct search *s, struct window w)
+{
+    w.log_prior = (double)(w.lost[0] + w.lost[1]) * log(br_priors.leaves_coarse);
+    for (size_t i = 0; i < s->all.count; i++) {
+        w.log_prior += w.far && s->far[i] ? log(br_priors.leaves_inside) : 0;
+        w.log_prior += is_out(s, &w, i) ? s->all.cell[i].weight * log(br_priors.unexplained) : 0;
+    }
+    s->window[s->windows++] = w;
+}
+
+/* The laws of laws.h with one parameter; and orders that change at a size, or between two, with two
+ * rates of coarse sizes and one of fine ones. As on lines, that of the coarse ones may count where
+ * these are more, or the others few. */
+static void take_options(struct search *s)
+{
+    enum { FEW = 3, BOTH = 3 };
+    for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
+        const bool is_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES ||
+                              f->law == BR_LAW_OFFSET,
+                   bends = f->law == BR_LAW_NEXT ? f->prior > 0.015
+                           : f->law == BR_LAW_SQUARES || f->law == BR_LAW_LOGARITHM
+                               ? f->prior >= 0.005
+                               : false;
+        if (f->curve == 0 && (is_floor || bends))
+            s->option[s->options++] = (struct option){*f, is_floor ? 0 : BOTH};
+    }
+    s->smooth = s->options;
+    for (int a = 0; a < BR_AXES; a++) {
+        const struct br_joint_size *size = s->all.size[a];
+        const size_t m = s->all.sizes[a] - 1;
+        for (size_t i = 3; i < 2 * m && m <= MOST_SIZES; i++) { /* odd: between i/2 and i/2 + 1 */
+            const size_t j = i / 2, between = i % 2, fine = j - 1 + between, coarse = m - j;
+            const bool counts = fine <= FEW || coarse >= fine;
+            if (fine < 1 || coarse < 2)
+                continue;
+            s->option[s->options++] = (struct option){{.law = BR_LAW_KINK,
+                                                       .s = counts ? br_priors.kink_coarse : 0,
+                                                       .low = size[j].log_x,
+                                                       .high = size[j + between].log_x,
+                                                       .prior = br_priors.kink / (double)m},
+                                                      1 << a};
+        }
+    }
+}
+
 /* ---- one model ---- */
 
 static double log_evidence(const struct search *s, const struct candidate *c)
@@ -165,7 +231,7 @@ static double log_evidence(const struct search *s, const struct candidate *c)
         rounded += s->used.cell[i].weight * pow(s->used.cell[i].rounded, 2) / t->weight;
     const double f = t->freedom;
     const double squares = t->sum + (pow(br_priors.least_scatter, 2) + rounded) * f;
-    return s->log_prior[c->window] + br_joint_log_prior(&s->all, t) + lgamma(f / 2) -
+    return s->window[c->window].log_prior + br_joint_log_prior(&s->all, t) + lgamma(f / 2) -
            f / 2 * log(M_PI * squares) + t->log_determinant / 2 -
            log1p(sqrt(squares / f) / br_priors.usual_scatter);
 }
@@ -228,8 +294,7 @@ static void add_candidate(struct search *s, const struct br_joint_law *law,
     struct candidate *c = &s->candidate[s->count];
     if (s->count == MOST_TRIALS || !enough(s, law))
         return;
-    *c = (struct candidate){
-        .trial = {.sum = INFINITY}, .window = s->now, .log_weight = -INFINITY};
+    *c = (struct candidate){.trial = {.sum = INFINITY}, .window = s->now, .log_weight = -INFINITY};
     for (size_t i = 0; i < starts; i++) {
         struct br_joint_trial t = {.law = *law, .sum = INFINITY};
         memcpy(t.value, start[i], sizeof t.value);
@@ -239,17 +304,16 @@ static void add_candidate(struct search *s, const struct br_joint_law *law,
             c->trial = t;
     }
     br_joint_descend(&s->used, &c->trial);
-    c->extras = (size_t)((law->of[0] != NULL) + (law->of[1] != NULL) + (law->floor != NULL));
+    c->laws = (size_t)((law->of[0] != NULL) + (law->of[1] != NULL) + (law->floor != NULL));
     s->count++;
     if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial) ||
         (is_kinked(law) && !is_exact(s, &c->trial, br_priors.least_curved)))
         return;
     int unknown[BR_UNKNOWNS];
     set_deviations(s, c);
-    c->log_weight = s->any_model ? log_evidence(s, c)
-                                 : -br_akaike(c->trial.sum, s->used.count,
-                                              br_joint_unknowns(law, unknown)) /
-                                       2;
+    c->log_weight =
+        s->any_model ? log_evidence(s, c)
+                     : -br_akaike(c->trial.sum, s->used.count, br_joint_unknowns(law, unknown)) / 2;
     if (isnan(c->log_weight))
         c->log_weight = -INFINITY;
     s->best = fmax(s->best, c->log_weight);
@@ -280,111 +344,70 @@ static size_t starts_of(const struct br_joint_cells *cells, const struct br_join
     return count;
 }
 
-static bool same_law(const struct br_joint_law *a, const struct br_joint_law *b)
-{
-    return a->kind == b->kind && a->sum == b->sum && a->of[0] == b->of[0] && a->of[1] == b->of[1] &&
-           a->floor == b->floor;
-}
-
 static bool is_tried(const struct search *s, const struct br_joint_law *law)
 {
-    for (size_t i = 0; i < s->count; i++)
-        if (s->candidate[i].window == s->now && same_law(&s->candidate[i].trial.law, law))
+    for (const struct candidate *c = s->candidate; c < s->candidate + s->count; c++) {
+        const struct br_joint_law *o = &c->trial.law;
+        if (c->window == s->now && o->kind == law->kind && o->sum == law->sum &&
+            o->of[0] == law->of[0] && o->of[1] == law->of[1] && o->floor == law->floor)
             return true;
+    }
     return false;
 }
 
-/* Tries a law from the values of a candidate. axes: those with a new family, as bits. Its term is
- * small, or larger than the first one, so that a lower order comes up. */
-static void extend(struct search *s, const struct candidate *from, const struct br_joint_law *law,
+/* Tries a candidate's model with a law of these axes, as bits; 0: it is a floor. What it adds is
+ * small, or larger than the first term, so that a lower order comes up. */
+static void extend(struct search *s, const struct candidate *from, const struct br_family *f,
                    int axes)
 {
+    const bool kink = f->law == BR_LAW_KINK;
+    struct br_joint_law law = from->trial.law;
     double start[2][BR_UNKNOWNS];
-    bool two = false;
-    if (is_tried(s, law))
-        return;
     for (int i = 0; i < 2; i++) {
         memcpy(start[i], from->trial.value, sizeof *start);
+        if (kink && i)
+            start[i][BR_THETA] = 0;
         for (int a = 0; a < BR_AXES; a++) {
-            const struct br_family *f = law->of[a];
             double *v = &start[i][BR_OF_AXIS * a];
             if (!(axes >> a & 1))
                 continue;
-            const bool kink = f->law == BR_LAW_KINK;
-            two |= kink || f->law == BR_LAW_NEXT;
+            law.of[a] = f;
             v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f);
             v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * (kink ? 1 : f->s));
-            if (kink && i)
-                start[i][BR_THETA] = 0;
             v[BR_PLACE] = (f->low + f->high) / 2;
         }
     }
-    add_candidate(s, law, start, two ? 2 : 1);
+    if (!axes)
+        law.floor = f;
+    if (!is_tried(s, &law))
+        add_candidate(s, &law, start, axes && (kink || f->law == BR_LAW_NEXT) ? 2 : 1);
 }
 
-static bool is_of_axis(const struct br_family *f)
+/* Tries a candidate's model with each option in this range. Laws of an axis are exchanged where
+ * both axes have one. */
+static void extend_by(struct search *s, const struct candidate *from, size_t first, size_t end)
 {
-    return f->curve == 0 &&
-           (f->law == BR_LAW_NEXT                                    ? f->prior > 0.015
-            : f->law == BR_LAW_SQUARES || f->law == BR_LAW_LOGARITHM ? f->prior >= 0.005
-                                                                     : false);
-}
-
-static bool is_floor(const struct br_family *f)
-{
-    return f->curve == 0 &&
-           (f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET);
-}
-
-/* All models that have one more law than a candidate; of the best one with laws of both axes also
- * those with another law of one of them. */
-static void extend_by_all(struct search *s, const struct candidate *from)
-{
-    const bool bent = from->trial.law.of[0] && from->trial.law.of[1];
-    for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
-        for (int a = 0; a < BR_AXES && is_of_axis(f); a++) {
-            struct br_joint_law law = from->trial.law;
-            if (!br_joint_has(law.kind, a) || (law.of[a] && !bent))
-                continue;
-            law.of[a] = f;
-            extend(s, from, &law, 1 << a);
-        }
-        struct br_joint_law law = from->trial.law;
-        if (from->extras == 0 && is_of_axis(f) && f->law == BR_LAW_NEXT &&
-            law.kind == BR_JOINT_BOTH) {
-            law.of[0] = law.of[1] = f;
-            extend(s, from, &law, 3);
-        }
-        law = from->trial.law;
-        if (is_floor(f) && !law.floor && !bent) {
-            law.floor = f;
-            extend(s, from, &law, 0);
-        }
+    const struct br_joint_law *law = &from->trial.law;
+    const bool bent = law->of[0] && law->of[1];
+    for (const struct option *o = s->option + first; o < s->option + end; o++) {
+        for (int a = 0; a < BR_AXES; a++)
+            if (o->axes >> a & 1 && br_joint_has(law->kind, a) && (bent || !law->of[a]))
+                extend(s, from, &o->family, 1 << a);
+        if (from->laws == 0 && law->kind == BR_JOINT_BOTH && o->family.law == BR_LAW_NEXT)
+            extend(s, from, &o->family, 3);
+        if (!o->axes && !law->floor && !bent)
+            extend(s, from, &o->family, 0);
     }
 }
 
-/* The same with orders that change. */
-static void extend_by_kinks(struct search *s, const struct candidate *from)
-{
-    for (size_t i = 0; i < s->kinks[1]; i++) {
-        const int a = i < s->kinks[0] ? 0 : 1;
-        struct br_joint_law law = from->trial.law;
-        if (!br_joint_has(law.kind, a) || law.of[a])
-            continue;
-        law.of[a] = &s->kink[i];
-        extend(s, from, &law, 1 << a);
-    }
-}
-
+/* The likeliest candidate of a window; MOST_WINDOWS: of all. */
 static const struct candidate *likeliest(const struct search *s, size_t window)
 {
     const struct candidate *best = NULL;
-    for (size_t i = 0; i < s->count; i++) {
-        const struct candidate *c = &s->candidate[i];
+    for (const struct candidate *c = s->candidate; c < s->candidate + s->count; c++)
         if ((c->window == window || window == MOST_WINDOWS) &&
             (!best || c->log_weight > best->log_weight))
             best = c;
-    }
     return best;
 }
 
@@ -393,32 +416,21 @@ static const struct candidate *likeliest(const struct search *s, size_t window)
  * that may be are. */
 static const double occam = 5, all_plain = 15;
 
-/* Extends the candidates of the window from `first` on, also those that come so. */
-static void grow(struct search *s, size_t first, double margin, void (*by)(struct search *, const struct candidate *))
+/* Extends the candidates from `from` on, also those that come so, by the options in this range.
+ * plain_margin: in place of all_plain. */
+static void grow(struct search *s, size_t from, size_t first, size_t end, double plain_margin)
 {
-    double best_plain = -INFINITY;
-    for (size_t i = first; i < s->count; i++)
-        if (s->candidate[i].extras == 0)
-            best_plain = fmax(best_plain, s->candidate[i].log_weight);
-    for (size_t i = first; i < s->count; i++) {
-        const struct candidate from = s->candidate[i];
-        const bool likely = from.extras == 0 ? !(from.log_weight < best_plain - margin)
-                            : from.extras == 1
-                                ? from.log_weight > fmax(s->best - occam, best_plain)
-                                : false;
-        if (likely)
-            by(s, &from);
+    double plainest = -INFINITY;
+    for (size_t i = from; i < s->count; i++)
+        if (s->candidate[i].laws == 0)
+            plainest = fmax(plainest, s->candidate[i].log_weight);
+    for (size_t i = from; i < s->count; i++) {
+        const struct candidate c = s->candidate[i];
+        if (c.laws == 0   ? !(c.log_weight < plainest - plain_margin)
+            : c.laws == 1 ? c.log_weight > fmax(s->best - occam, plainest)
+                          : false)
+            extend_by(s, &c, first, end);
     }
-}
-
-/* Goes to a window: its cells are used from here on. */
-static void look_at(struct search *s, size_t window)
-{
-    s->now = window;
-    s->used.count = 0;
-    for (size_t i = 0; i < s->all.count; i++)
-        if (!s->out[window][i])
-            s->used.cell[s->used.count++] = s->all.cell[i];
 }
 
 /* Whether a bent axis has no more sizes than unknowns: another law may go through them as well. */
@@ -430,24 +442,34 @@ static bool goes_through_all(const struct search *s, const struct br_joint_law *
     return false;
 }
 
+/* Goes to a window: its cells are used from here on. */
+static void look_at(struct search *s, size_t window)
+{
+    s->now = window;
+    s->used.count = 0;
+    for (size_t i = 0; i < s->all.count; i++)
+        if (!is_out(s, &s->window[window], i))
+            s->used.cell[s->used.count++] = s->all.cell[i];
+}
+
 static void search_window(struct search *s, size_t window)
 {
     static const double exact = 1e-6; /* no other law is needed */
     double start[STARTS][BR_UNKNOWNS];
-    const size_t first = s->count;
+    const size_t from = s->count;
     look_at(s, window);
     for (size_t i = 0; i < (s->any_model ? PLAIN : KINDS); i++)
         add_candidate(s, &plain[i], start, starts_of(&s->used, &plain[i], start));
-    if (!s->any_model || s->count == first)
+    if (!s->any_model || s->count == from)
         return;
-    grow(s, first, all_plain, extend_by_all);
+    grow(s, from, 0, s->smooth, all_plain);
     const struct br_joint_trial *smooth = &likeliest(s, window)->trial;
     if (!is_exact(s, smooth, exact) || goes_through_all(s, &smooth->law))
-        grow(s, first, INFINITY, extend_by_kinks);
+        grow(s, from, s->smooth, s->options, INFINITY);
     for (int turn = 0; turn < 2; turn++) {
         const struct candidate best = *likeliest(s, window);
         if (best.trial.law.of[0] && best.trial.law.of[1])
-            extend_by_all(s, &best);
+            extend_by(s, &best, 0, s->smooth);
     }
 }
 
@@ -456,34 +478,11 @@ static void refit_window(struct search *s, size_t window, size_t count)
 {
     look_at(s, window);
     for (size_t i = 0; i < count; i++) {
-        const struct candidate *from = &s->candidate[i];
-        if (isfinite(from->log_weight) && (from->log_weight > s->best - occam || from->extras == 0) &&
-            !is_tried(s, &from->trial.law))
-            add_candidate(s, &from->trial.law, (const double(*)[BR_UNKNOWNS]) & from->trial.value,
-                          1);
+        const struct candidate *c = &s->candidate[i];
+        if (isfinite(c->log_weight) && (c->log_weight > s->best - occam || c->laws == 0) &&
+            !is_tried(s, &c->trial.law))
+            add_candidate(s, &c->trial.law, (const double(*)[BR_UNKNOWNS]) & c->trial.value, 1);
     }
-}
-
-/* ---- windows ---- */
-
-static bool *open_window(struct search *s)
-{
-    memset(s->out[s->windows], 0, s->all.count * sizeof *s->out[0]);
-    return s->out[s->windows];
-}
-
-/* The prior of the cells that are out; of a size as a whole: it counts once. */
-static void close_window(struct search *s, double share)
-{
-    double sum = log(share);
-    size_t out = 0;
-    for (size_t i = 0; i < s->all.count; i++)
-        if (s->out[s->windows][i]) {
-            sum += s->all.cell[i].weight * log(br_priors.unexplained);
-            out++;
-        }
-    s->log_prior[s->windows] = sum;
-    s->windows += out > 0 || s->windows == 0;
 }
 
 /* So far off, in logarithms, a cell does not show the order. */
@@ -495,6 +494,7 @@ static void leave_out_far(struct search *s)
     static const double robust = 0.1;
     double start[STARTS][BR_UNKNOWNS];
     struct br_joint_trial best = {.sum = INFINITY};
+    size_t count = 0;
     look_at(s, 0);
     for (size_t i = 0; i < KINDS; i++)
         for (size_t j = enough(s, &plain[i]) ? starts_of(&s->used, &plain[i], start) : 0;
@@ -509,72 +509,31 @@ static void leave_out_far(struct search *s)
     if (!isfinite(best.sum))
         return;
     br_joint_residuals(&s->used, &best, s->residual);
-    bool *out = open_window(s);
-    size_t count = 0;
     for (size_t i = 0; i < s->all.count; i++)
-        count += out[i] = fabs(s->residual[i]) > far;
+        count += s->far[i] = fabs(s->residual[i]) > far;
     if (count > 0 && 4 * count <= s->all.count)
-        close_window(s, pow(br_priors.leaves_inside, (double)count));
+        add_window(s, (struct window){.far = true});
 }
 
-/* Windows without the coarsest sizes of one axis or of both, of those that window `from` has. */
-static void leave_out_coarse(struct search *s, size_t from)
-{
-    static const int lost[][BR_AXES] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}};
-    for (size_t w = 0; w < sizeof lost / sizeof *lost && s->windows < MOST_WINDOWS; w++) {
-        bool *out = open_window(s), fits = true;
-        for (int a = 0; a < BR_AXES; a++) {
-            size_t coarsest = 0;
-            for (size_t i = 0; i < s->all.count; i++)
-                coarsest = s->all.cell[i].at[a] > coarsest ? s->all.cell[i].at[a] : coarsest;
-            fits = fits && coarsest >= (size_t)lost[w][a] + 3;
-            for (size_t i = 0; i < s->all.count; i++)
-                out[i] |= s->out[from][i] || s->all.cell[i].at[a] + (size_t)lost[w][a] > coarsest;
-        }
-        if (fits)
-            close_window(s, pow(br_priors.leaves_coarse, lost[w][0] + lost[w][1]));
-    }
-}
-
+/* All windows: the first has all cells. */
 static void search_all(struct search *s)
 {
-    open_window(s);
-    close_window(s, 1);
+    static const size_t lost[][BR_AXES] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}};
+    add_window(s, (struct window){0});
     search_window(s, 0);
     if (!s->any_model || s->count == 0)
         return;
     if (likeliest(s, 0)->trial.worst > far / 2)
         leave_out_far(s);
-    s->has_far = s->windows > 1;
-    if (s->has_far)
+    if (s->windows > 1)
         search_window(s, 1);
-    const size_t first = s->windows, count = s->count;
-    leave_out_coarse(s, likeliest(s, MOST_WINDOWS)->window);
-    for (size_t w = first; w < s->windows; w++)
-        refit_window(s, w, count);
-}
-
-/* Orders that change: at a size, or between two, with two rates of coarse sizes and one of fine
- * ones. As on lines, that of the coarse ones may count where these are more, or the others few. */
-static void make_kinks(struct search *s)
-{
-    enum { FEW = 3 };
-    size_t count = 0;
-    for (int a = 0; a < BR_AXES; s->kinks[a++] = count) {
-        const size_t m = s->all.sizes[a] - 1;
-        const struct br_joint_size *size = s->all.size[a];
-        for (size_t i = 3; m < MOST_SIZES && i < 2 * m; i++) { /* odd: between i/2 and i/2 + 1 */
-            const size_t j = i / 2, between = i % 2, fine = j - 1 + between;
-            if (fine < 1 || m - j < 2)
-                continue;
-            s->kink[count++] = (struct br_family){
-                .law = BR_LAW_KINK,
-                .s = fine <= FEW || m - j >= fine ? br_priors.kink_coarse : 0,
-                .low = size[j].log_x,
-                .high = size[j + between].log_x,
-                .prior = br_priors.kink / (double)m};
+    const size_t count = s->count;
+    const struct window from = s->window[likeliest(s, MOST_WINDOWS)->window];
+    for (size_t w = 0; w < sizeof lost / sizeof *lost; w++)
+        if (s->all.sizes[0] > lost[w][0] + 3 && s->all.sizes[1] > lost[w][1] + 3) {
+            add_window(s, (struct window){.far = from.far, .lost = {lost[w][0], lost[w][1]}});
+            refit_window(s, s->windows - 1, count);
         }
-    }
 }
 
 /* ---- intervals ---- */
@@ -699,16 +658,16 @@ static void describe(struct search *s, const struct candidate *c, struct br_join
     double mean = 0, total = 0, value[BR_UNKNOWNS];
     in_units(s, t, value);
     look_at(s, c->window);
-    *fit = (struct br_joint_fit){
-        .kind = t->law.kind,
-        .converged = true,
-        .points = s->used.count,
-        .left_out = s->all.count - s->used.count,
-        .freedom = (size_t)t->freedom,
-        .worst = t->worst,
-        .misfit = t->sum / t->weight > round_off ? sqrt(t->sum / t->weight) : 0,
-        .r = correlation(c),
-        .floor = t->law.floor ? exp(value[BR_LOG_F]) : (double)NAN};
+    *fit = (struct br_joint_fit){.kind = t->law.kind,
+                                 .converged = true,
+                                 .points = s->used.count,
+                                 .left_out = s->all.count - s->used.count,
+                                 .freedom = (size_t)t->freedom,
+                                 .worst = t->worst,
+                                 .misfit =
+                                     t->sum / t->weight > round_off ? sqrt(t->sum / t->weight) : 0,
+                                 .r = correlation(c),
+                                 .floor = t->law.floor ? exp(value[BR_LOG_F]) : (double)NAN};
     br_joint_residuals(&s->used, t, s->residual);
     for (int a = 0; a < BR_AXES; a++) {
         const bool has = br_joint_has(t->law.kind, a);
@@ -811,9 +770,9 @@ static double below(const struct candidate *c, int axis, double order)
         return 0.5;
     double sum = (1 - coarse) * student_below(off / scale, c->trial.freedom);
     if (coarse > 0)
-        sum += coarse * student_below((off - c->trial.value[ORDER(axis) - BR_ORDER + BR_SHAPE]) /
-                                          scale,
-                                      c->trial.freedom);
+        sum += coarse *
+               student_below((off - c->trial.value[ORDER(axis) - BR_ORDER + BR_SHAPE]) / scale,
+                             c->trial.freedom);
     return sum;
 }
 
@@ -889,11 +848,11 @@ static struct br_joint_fit nothing_fitted(size_t points)
 /* Cells that the most probable model leaves out; those of a whole size are too coarse. */
 static void flag_cells(const struct search *s, struct br_observation *observation)
 {
-    const size_t window = s->count ? s->candidate[0].window : 0;
+    const struct window *window = &s->window[s->count ? s->candidate[0].window : 0];
     for (size_t i = 0; i < s->all.count; i++)
-        observation[i].flag = !s->out[window][i]           ? BR_FLAG_NONE
-                              : s->has_far && s->out[1][i] ? BR_FLAG_OUTLIER
-                                                           : BR_FLAG_COARSE;
+        observation[i].flag = !is_out(s, window, i)           ? BR_FLAG_NONE
+                              : s->window[1].far && s->far[i] ? BR_FLAG_OUTLIER
+                                                              : BR_FLAG_COARSE;
 }
 
 /* All memory of a search; false: there is none. */
@@ -903,22 +862,17 @@ static bool make_room(struct search *s)
     s->all.cell = br_allocate(3 * count + 1, sizeof *s->all.cell);
     s->all.size[0] = br_allocate(4 * count + 4, sizeof *s->all.size[0]);
     s->all.room = br_allocate(br_joint_room(count) + 2 * count, sizeof *s->all.room);
-    s->out[0] = br_allocate(MOST_WINDOWS * count + 1, sizeof *s->out[0]);
+    s->far = br_allocate(count + 1, sizeof *s->far);
     s->candidate = br_allocate(MOST_TRIALS, sizeof *s->candidate);
-    s->kink = br_allocate(4 * MOST_SIZES, sizeof *s->kink);
-    if (!s->all.cell || !s->all.size[0] || !s->all.room || !s->out[0] || !s->candidate || !s->kink)
-        return false;
-    for (size_t i = 1; i < MOST_WINDOWS; i++)
-        s->out[i] = s->out[0] + i * count;
     s->all.size[1] = s->all.size[0] + 2 * count + 2;
     s->residual = s->all.room + br_joint_room(count);
-    return true;
+    return s->all.cell && s->all.size[0] && s->all.room && s->far && s->candidate;
 }
 
 static void fit_all(struct search *s, struct br_observation *observation, struct br_joint_fit *fit)
 {
     take_cells(s, observation);
-    make_kinks(s);
+    take_options(s);
     s->used = s->all;
     s->used.cell = s->all.cell + s->all.count;
     s->rest = s->used.cell + s->all.count;
@@ -939,10 +893,9 @@ enum br_status br_joint_fit_solve(struct br_observation *observation, size_t cou
                                   const struct br_observer *observer, struct br_joint_fit *fit,
                                   struct br_error *err)
 {
-    struct search s = {
-        .any_model = any_model,
-        .best = -INFINITY,
-        .all = {.count = count, .priors = any_model, .observer = observer}};
+    struct search s = {.any_model = any_model,
+                       .best = -INFINITY,
+                       .all = {.count = count, .priors = any_model, .observer = observer}};
     *fit = nothing_fitted(count);
     const enum br_status status = make_room(&s) ? BR_OK : br_no_memory(err, "the fits");
     if (!status && count > 0)
@@ -950,9 +903,8 @@ enum br_status br_joint_fit_solve(struct br_observation *observation, size_t cou
     free(s.all.cell);
     free(s.all.size[0]);
     free(s.all.room);
-    free(s.out[0]);
+    free(s.far);
     free(s.candidate);
-    free(s.kink);
     if (!status && br_observer_stops(observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     return status;

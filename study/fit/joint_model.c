@@ -87,7 +87,7 @@ static bool allowed(const struct br_joint_law *law, const double value[BR_UNKNOW
             continue;
         if (!(v[BR_ORDER] > least && v[BR_ORDER] < most_order && fabs(shape) < 12))
             return false;
-        if (f && f->law == BR_LAW_KINK  ? !(v[BR_ORDER] + shape > least)
+        if (f && f->law == BR_LAW_KINK   ? !(v[BR_ORDER] + shape > least)
             : f && f->law != BR_LAW_NEXT ? !(shape > log(f->low) && shape < log(f->high))
                                          : false)
             return false;
@@ -395,14 +395,15 @@ static double of_known(double freedom)
 }
 
 /* How large the corrections of an axis are, 0 to 1. */
-static double change_of(const struct br_joint_cells *cells, const struct br_joint_trial *t, int axis)
+static double change_of(const struct br_joint_cells *cells, const struct br_joint_trial *t,
+                        int axis)
 {
     const struct br_family *f = t->law.of[axis];
     double most = 0;
     for (size_t i = 1; i < cells->sizes[axis] && f && f->law != BR_LAW_KINK; i++) {
-        const double off = fabs(bend(f, &t->value[OF(axis, 0)], cells->size[axis][i].log_x,
-                                     cells->log_finest[axis]) -
-                                t->bend[axis]);
+        const double off = fabs(
+            bend(f, &t->value[OF(axis, 0)], cells->size[axis][i].log_x, cells->log_finest[axis]) -
+            t->bend[axis]);
         most = fmax(most, off / (1 + off));
     }
     return most;
@@ -447,7 +448,7 @@ static void finish(struct br_joint_cells *cells, struct equations *e, struct br_
 {
     const size_t n = e->unknowns;
     double r[BR_UNKNOWNS][BR_UNKNOWNS + 1], inverse[BR_UNKNOWNS][BR_UNKNOWNS] = {{0}},
-        step[BR_UNKNOWNS];
+                                            step[BR_UNKNOWNS];
     if (!isfinite(t->sum) || !isfinite(evaluate(cells, &t->law, e, t->value, e->now)))
         return;
     const double *b = e->now + n * e->stride;
@@ -473,9 +474,8 @@ static void finish(struct br_joint_cells *cells, struct equations *e, struct br_
         for (size_t j = 0; j < n; j++)
             t->covariance[i][j] = dot(inverse[i], inverse[j], n);
     for (int a = 0; a < BR_AXES; a++)
-        t->bend[a] = t->law.of[a]
-                         ? bend(t->law.of[a], &t->value[OF(a, 0)], 0, cells->log_finest[a])
-                         : 0;
+        t->bend[a] =
+            t->law.of[a] ? bend(t->law.of[a], &t->value[OF(a, 0)], 0, cells->log_finest[a]) : 0;
     for (size_t j = 0; j < n; j++)
         if (e->unknown[j] < BR_THETA && e->unknown[j] % BR_OF_AXIS == BR_ORDER)
             set_open(cells, e, j, e->unknown[j] / BR_OF_AXIS, t);

@@ -59,7 +59,7 @@ struct br_joint_trial {
     double covariance[BR_UNKNOWNS][BR_UNKNOWNS]; /* of the unknowns in their order, over the
                                                     variance of a residual */
     double log_determinant;                      /* of that */
-    double bend[BR_AXES]; /* log of the correction at the coarsest size */
+    double bend[BR_AXES];                        /* log of the correction at the coarsest size */
     double open[BR_AXES]; /* what else is not known of an order, as a scale: laws are truncated, and
                              printed digits rounded */
 };
