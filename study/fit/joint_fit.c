@@ -309,13 +309,12 @@ static void add_candidate(struct search *s, const struct br_joint_law *law,
     if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial) ||
         (is_kinked(law) && !is_exact(s, &c->trial, br_priors.least_curved)))
         return;
-    int unknown[BR_UNKNOWNS];
     set_deviations(s, c);
-    c->log_weight =
-        s->any_model ? log_evidence(s, c)
-                     : -br_akaike(c->trial.sum, s->used.count, br_joint_unknowns(law, unknown)) / 2;
-    if (isnan(c->log_weight))
-        c->log_weight = -INFINITY;
+    const double weight = s->any_model ? log_evidence(s, c)
+                                       : -br_akaike(c->trial.sum, s->used.count,
+                                                    br_joint_unknowns(law, (int[BR_UNKNOWNS]){0})) /
+                                             2;
+    c->log_weight = isfinite(weight) ? weight : -INFINITY;
     s->best = fmax(s->best, c->log_weight);
 }
 
@@ -864,9 +863,11 @@ static bool make_room(struct search *s)
     s->all.room = br_allocate(br_joint_room(count) + 2 * count, sizeof *s->all.room);
     s->far = br_allocate(count + 1, sizeof *s->far);
     s->candidate = br_allocate(MOST_TRIALS, sizeof *s->candidate);
+    if (!s->all.cell || !s->all.size[0] || !s->all.room || !s->far || !s->candidate)
+        return false;
     s->all.size[1] = s->all.size[0] + 2 * count + 2;
     s->residual = s->all.room + br_joint_room(count);
-    return s->all.cell && s->all.size[0] && s->all.room && s->far && s->candidate;
+    return true;
 }
 
 static void fit_all(struct search *s, struct br_observation *observation, struct br_joint_fit *fit)

@@ -297,17 +297,25 @@ static double dot(const double *a, const double *b, size_t n)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* Least squares by modified Gram-Schmidt, the right side as one more column (Bjorck, BIT 7, 1-21,
- * 1967): a = Q R, x = R^-1 Q' b. No library: its rounding would be that of the installed BLAS. */
-static void solve(const struct equations *e, double *a, size_t rows,
+/* The step x that makes the sum least, held back by rows of damping times the scale of each
+ * unknown; r: the triangle. By modified Gram-Schmidt, with the right side as one more column
+ * (Bjorck, BIT 7, 1-21, 1967). No library: its rounding would be that of the installed BLAS. */
+static void solve(const struct equations *e, const double scale[BR_UNKNOWNS], double damping,
                   double r[BR_UNKNOWNS][BR_UNKNOWNS + 1], double x[BR_UNKNOWNS])
 {
-    const size_t n = e->unknowns;
+    const size_t n = e->unknowns, rows = e->cells + 2 * n;
+    memcpy(e->work, e->now, (n + 1) * e->stride * sizeof *e->work);
+    for (size_t j = 0; j <= n; j++) {
+        double *held = e->work + j * e->stride + rows - n;
+        memset(held, 0, n * sizeof *held);
+        if (j < n)
+            held[j] = sqrt(damping) * scale[j];
+    }
     for (size_t k = 0; k < n; k++) {
-        const double *q = a + k * e->stride, square = dot(q, q, rows);
+        const double *q = e->work + k * e->stride, square = dot(q, q, rows);
         r[k][k] = sqrt(square);
         for (size_t j = k + 1; j <= n; j++) {
-            double *of = a + j * e->stride;
+            double *of = e->work + j * e->stride;
             const double share = square > 0 ? dot(q, of, rows) / square : 0;
             r[k][j] = share * r[k][k];
             for (size_t i = 0; i < rows; i++)
@@ -319,19 +327,6 @@ static void solve(const struct equations *e, double *a, size_t rows,
         for (size_t j = k + 1; j < n; j++)
             x[k] -= r[k][j] * x[j];
         x[k] = r[k][k] > 0 ? x[k] / r[k][k] : 0;
-    }
-}
-
-/* Copies equations, with rows that hold back the step: damping times the scale of each unknown. */
-static void damp(const struct equations *e, const double scale[BR_UNKNOWNS], double damping)
-{
-    const size_t n = e->unknowns, rows = e->cells + n;
-    for (size_t j = 0; j <= n; j++) {
-        double *of = e->work + j * e->stride;
-        memcpy(of, e->now + j * e->stride, rows * sizeof *of);
-        memset(of + rows, 0, n * sizeof *of);
-        if (j < n)
-            of[rows + j] = sqrt(damping) * scale[j];
     }
 }
 
@@ -350,8 +345,7 @@ static void minimise(struct br_joint_cells *cells, struct equations *e, struct b
             const double *of = e->now + j * e->stride;
             scale[j] = fmax(scale[j], sqrt(dot(of, of, e->cells)));
         }
-        damp(e, scale, damping);
-        solve(e, e->work, e->cells + 2 * n, r, step);
+        solve(e, scale, damping, r, step);
         memcpy(next, t->value, sizeof next);
         for (size_t j = 0; j < n; j++) {
             next[e->unknown[j]] += step[j];
@@ -448,7 +442,7 @@ static void finish(struct br_joint_cells *cells, struct equations *e, struct br_
 {
     const size_t n = e->unknowns;
     double r[BR_UNKNOWNS][BR_UNKNOWNS + 1], inverse[BR_UNKNOWNS][BR_UNKNOWNS] = {{0}},
-                                            step[BR_UNKNOWNS];
+                                            step[BR_UNKNOWNS] = {0};
     if (!isfinite(t->sum) || !isfinite(evaluate(cells, &t->law, e, t->value, e->now)))
         return;
     const double *b = e->now + n * e->stride;
@@ -459,8 +453,7 @@ static void finish(struct br_joint_cells *cells, struct equations *e, struct br_
         t->weight += cells->cell[i].weight;
     }
     t->freedom = fmax(1, floor(t->weight - (double)n + 1e-9));
-    damp(e, (double[BR_UNKNOWNS]){0}, 0);
-    solve(e, e->work, e->cells + n, r, step);
+    solve(e, step, 0, r, step);
     for (size_t k = 0; k < n; k++) {
         t->log_determinant -= 2 * log(r[k][k]);
         for (size_t i = k + 1; i-- > 0;) { /* R inverse = 1 */
