@@ -22,7 +22,8 @@
     X(BR_MONOTONE_DIVERGENCE, "monotone divergence")         \
     X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")   \
     X(BR_SEQUENCE_SCATTER, "changes within the scatter of the means") \
-    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour")
+    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour") \
+    X(BR_SEQUENCE_LOGARITHM, "growth like a logarithm")
 
 enum br_sequence {
 #define X(name, text) name,
@@ -51,7 +52,9 @@ struct br_gci_pair {
  * For equal ratios the left side is |R|, with R = e21/e32 of the literature. For unequal ones R
  * alone misleads: values 1 + h at h = 1, 1/10 and 1/100000 have R = 0.11, but at h = 1, 10/11 and
  * 5/11 R = 5. The quotient of the logarithms is the limit of (r32^p - 1)/(r21^p - 1) for p -> 0.
- * Differences within round-off count as zero: two, the sequence is constant; one, not known. */
+ * Differences within round-off count as zero: two, the sequence is constant; one, not known. An
+ * order within 0.05 of zero, of one sign, is that of a logarithm: differences stay, and no limit is
+ * in sight. */
 struct br_gci {
     enum br_sequence sequence;
     double order;                    /* p, (3): negative if divergent */

@@ -74,9 +74,12 @@ static int turns_of(const struct br_line_value *v, size_t first, size_t last)
 /* sure: the least probability. */
 static enum br_sequence sequence_of(const struct br_line_order *found, int turns, double sure)
 {
+    static const double small = 0.4; /* an order: values may grow like log n, or its logarithm */
     const bool falls = found->converges >= sure, grows = found->diverges >= sure;
     if (!falls && !grows)
-        return BR_SEQUENCE_UNKNOWN;
+        return turns > 0 && found->order.high < small && found->order.low > -small
+                   ? BR_SEQUENCE_LOGARITHM
+                   : BR_SEQUENCE_UNKNOWN;
     if (turns == 0)
         return falls ? BR_SEQUENCE_ANOMALOUS : BR_SEQUENCE_UNKNOWN;
     return turns > 0 ? (falls ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE)
@@ -97,14 +100,17 @@ static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
     const struct br_line_value *finest = &v[count - 1];
     const double step = finest->value - finest[-1].value, sign = step < 0 ? -1 : 1;
     const double own = finest->half + finest->rounding;
+    const bool few = isnan(found->order.value); /* of three values two differences show no order */
     double low = found->left.low, high = found->left.high, value = found->left.value;
-    if (turns < 0) {
+    if (turns < 0 && !few) {
         const double r = finest->h / finest[-1].h;
         value = -fabs(step) * back(r, found->order.value);
         low = -fabs(step) * fmax(back(r, found->order.low), back(r, 0.5 * found->order.value));
         high = -fabs(step) * back(r, fmax(found->order.high, 1.5 * found->order.value));
     }
-    if (turns == 0) { /* terms of opposite sign, or noise: as far as the last values are apart */
+    if (turns == 0 ||
+        (turns < 0 &&
+         few)) { /* terms of opposite sign, or noise: as far as the last values are apart */
         for (size_t i = count < 4 ? 0 : count - 4; i + 1 < count; i++)
             high = fmax(fmax(fabs(high), fabs(low)), fabs(v[i].value - finest->value));
         low = -high;
@@ -182,7 +188,12 @@ enum br_status br_limits_find(const struct br_line_value *v, size_t count, struc
         limits->gci = limits->triple[i];
         limits->triples = i + 1;
     }
-    return count < 3 ? BR_OK : br_limit_of_values(v, count, &limits->limit, err);
+    const enum br_status status =
+        count < 3 ? BR_OK : br_limit_of_values(v, count, &limits->limit, err);
+    if (count == 3 && limits->limit.sequence == BR_SEQUENCE_UNKNOWN &&
+        limits->gci.sequence == BR_SEQUENCE_LOGARITHM)
+        limits->limit.sequence = BR_SEQUENCE_LOGARITHM;
+    return status;
 }
 
 void br_limits_clear(struct br_limits *limits)
