@@ -93,24 +93,26 @@ static double back(double ratio, double order)
 }
 
 /* The limit from what is left at the finest value, in the direction of its difference; of values
- * that alternate it lies on the way back, of others on either side. */
+ * that alternate it lies on the way back, of others on either side. Three values show no order:
+ * they may have passed the limit, by a tenth of the difference, and those that turn may have any.
+ */
 static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
                                    const struct br_line_order *found, int turns)
 {
+    static const double passed = 0.1;
     const struct br_line_value *finest = &v[count - 1];
     const double step = finest->value - finest[-1].value, sign = step < 0 ? -1 : 1;
     const double own = finest->half + finest->rounding;
-    const bool few = isnan(found->order.value); /* of three values two differences show no order */
+    const bool few = isnan(found->order.value);
     double low = found->left.low, high = found->left.high, value = found->left.value;
+    if (few)
+        low = fmin(low, -passed * fabs(step));
     if (turns < 0 && !few) {
         const double r = finest->h / finest[-1].h;
         value = -fabs(step) * back(r, found->order.value);
         low = -fabs(step) * fmax(back(r, found->order.low), back(r, 0.5 * found->order.value));
         high = -fabs(step) * back(r, fmax(found->order.high, 1.5 * found->order.value));
-    }
-    if (turns == 0 ||
-        (turns < 0 &&
-         few)) { /* terms of opposite sign, or noise: as far as the last values are apart */
+    } else if (turns <= 0) { /* opposite terms, or noise: as far as the last values are apart */
         for (size_t i = count < 4 ? 0 : count - 4; i + 1 < count; i++)
             high = fmax(fmax(fabs(high), fabs(low)), fabs(v[i].value - finest->value));
         low = -high;
