@@ -186,9 +186,9 @@ static void add_window(struct search *s, struct window w)
     s->window[s->windows++] = w;
 }
 
-/* The laws of laws.h with one parameter; and orders that change at a size, or between two, with two
- * rates of coarse sizes and one of fine ones. As on lines, that of the coarse ones may count where
- * these are more, or the others few. */
+/* The laws of laws.h with one parameter; and orders that change at size j, or between it and the
+ * next one, with a rate of fine sizes and two coarse sizes before. As on lines, that of the coarse
+ * ones may count where these are more, or the others few. */
 static void take_options(struct search *s)
 {
     enum { FEW = 3, BOTH = 3 };
@@ -206,11 +206,9 @@ static void take_options(struct search *s)
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_joint_size *size = s->all.size[a];
         const size_t m = s->all.sizes[a] - 1;
-        for (size_t i = 3; i < 2 * m && m <= MOST_SIZES; i++) { /* odd: between i/2 and i/2 + 1 */
+        for (size_t i = 4; i + 3 <= 2 * m && m <= MOST_SIZES; i++) {
             const size_t j = i / 2, between = i % 2, fine = j - 1 + between, coarse = m - j;
             const bool counts = fine <= FEW || coarse >= fine;
-            if (fine < 1 || coarse < 2)
-                continue;
             s->option[s->options++] = (struct option){{.law = BR_LAW_KINK,
                                                        .s = counts ? br_priors.kink_coarse : 0,
                                                        .low = size[j].log_x,

@@ -42,6 +42,12 @@ static void leave_scatter(struct br_gci *gci, const struct br_line_value *v)
 
 /* ---- a line ---- */
 
+static void find_gci(const struct br_line_value *v, struct br_gci *gci)
+{
+    br_gci((const double[]){v[0].h, v[1].h, v[2].h},
+           (const double[]){v[0].value, v[1].value, v[2].value}, 3, gci);
+}
+
 /* The round-off that the difference of two values may have. */
 static double round_off_of(const struct br_line_value *v, size_t count)
 {
@@ -160,6 +166,11 @@ enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
     /* The scatter of means is known, which the mixture takes from few differences. */
     const double sure = half > 0 ? 0.5 : 0.9;
     limit->sequence = sequence_of(&found, turns, sure);
+    if (count == 3 && limit->sequence == BR_SEQUENCE_UNKNOWN) {
+        struct br_gci gci;
+        find_gci(v, &gci);
+        limit->sequence = gci.sequence == BR_SEQUENCE_LOGARITHM ? gci.sequence : limit->sequence;
+    }
     limit->order = found.order.value;
     if (limit->sequence != BR_SEQUENCE_UNKNOWN && found.converges >= sure &&
         isfinite(found.left.value))
@@ -183,19 +194,12 @@ enum br_status br_limits_find(const struct br_line_value *v, size_t count, struc
     if (!limits->triple)
         return br_no_memory(err, "the limits");
     for (size_t i = 0; i + 2 < count; i++) {
-        const double h[] = {v[i].h, v[i + 1].h, v[i + 2].h},
-                     value[] = {v[i].value, v[i + 1].value, v[i + 2].value};
-        br_gci(h, value, 3, &limits->triple[i]);
+        find_gci(v + i, &limits->triple[i]);
         leave_scatter(&limits->triple[i], v + i);
         limits->gci = limits->triple[i];
         limits->triples = i + 1;
     }
-    const enum br_status status =
-        count < 3 ? BR_OK : br_limit_of_values(v, count, &limits->limit, err);
-    if (count == 3 && limits->limit.sequence == BR_SEQUENCE_UNKNOWN &&
-        limits->gci.sequence == BR_SEQUENCE_LOGARITHM)
-        limits->limit.sequence = BR_SEQUENCE_LOGARITHM;
-    return status;
+    return count < 3 ? BR_OK : br_limit_of_values(v, count, &limits->limit, err);
 }
 
 void br_limits_clear(struct br_limits *limits)
