@@ -304,8 +304,7 @@ static void add_candidate(struct search *s, const struct br_joint_law *law,
     br_joint_descend(&s->used, &c->trial);
     c->laws = (size_t)((law->of[0] != NULL) + (law->of[1] != NULL) + (law->floor != NULL));
     s->count++;
-    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial) ||
-        (is_kinked(law) && !is_exact(s, &c->trial, br_priors.least_curved)))
+    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial))
         return;
     set_deviations(s, c);
     const double weight = s->any_model ? log_evidence(s, c)
@@ -463,6 +462,16 @@ static void search_window(struct search *s, size_t window)
     const struct br_joint_trial *smooth = &likeliest(s, window)->trial;
     if (!is_exact(s, smooth, exact) || goes_through_all(s, &smooth->law))
         grow(s, from, s->smooth, s->options, INFINITY);
+    for (int a = 0; a < BR_AXES; a++) { /* the best change of each axis, beside another law */
+        const struct candidate *best = NULL;
+        for (const struct candidate *c = s->candidate + from; c < s->candidate + s->count; c++)
+            if (c->laws == 1 && is_kinked(&c->trial.law) && c->trial.law.of[a] && (!best || c->log_weight > best->log_weight))
+                best = c;
+        if (best) {
+            const struct candidate c = *best;
+            extend_by(s, &c, 0, s->options);
+        }
+    }
     for (int turn = 0; turn < 2; turn++) {
         const struct candidate best = *likeliest(s, window);
         if (best.trial.law.of[0] && best.trial.law.of[1])
