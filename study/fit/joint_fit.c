@@ -270,19 +270,9 @@ static bool ends_at_a_floor(const struct br_joint_trial *t)
     return ends && br_joint_unknowns(&t->law, unknown) > 2;
 }
 
-/* Exact errors alone show that an order changes: root mean square of residuals beyond rounding. */
-static bool is_exact(const struct search *s, const struct br_joint_trial *t, double least)
+static bool changes_along(const struct br_joint_law *law, int axis)
 {
-    double allowed = 0;
-    for (size_t i = 0; i < s->used.count; i++)
-        allowed += s->used.cell[i].weight * (least * least + 4 * pow(s->used.cell[i].rounded, 2));
-    return t->sum <= allowed;
-}
-
-static bool is_kinked(const struct br_joint_law *law)
-{
-    return (law->of[0] && law->of[0]->law == BR_LAW_KINK) ||
-           (law->of[1] && law->of[1]->law == BR_LAW_KINK);
+    return law->of[axis] && law->of[axis]->law == BR_LAW_KINK;
 }
 
 /* Adds the fit of a law to the window, from the best of these starts. */
@@ -429,13 +419,19 @@ static void grow(struct search *s, size_t from, size_t first, size_t end, double
     }
 }
 
-/* Whether a bent axis has no more sizes than unknowns: another law may go through them as well. */
-static bool goes_through_all(const struct search *s, const struct br_joint_law *law)
+/* Whether a model describes the cells to their digits, with more sizes than unknowns of a bent
+ * axis: then no order that changes is tried. */
+static bool is_exact(const struct search *s, const struct br_joint_trial *t)
 {
+    static const double least = 1e-6, digits = 1.5; /* variances of rounding */
+    double digits_make = 0;
+    bool spare = true;
+    for (size_t i = 0; i < s->used.count; i++)
+        digits_make +=
+            s->used.cell[i].weight * (least * least + digits * pow(s->used.cell[i].rounded, 2));
     for (int a = 0; a < BR_AXES; a++)
-        if (law->of[a] && sizes_of(&s->used, a) <= (law->floor ? 4 : 3))
-            return true;
-    return false;
+        spare = spare && (!t->law.of[a] || sizes_of(&s->used, a) > (t->law.floor ? 4 : 3));
+    return spare && t->sum <= digits_make;
 }
 
 /* Goes to a window: its cells are used from here on. */
@@ -448,9 +444,25 @@ static void look_at(struct search *s, size_t window)
             s->used.cell[s->used.count++] = s->all.cell[i];
 }
 
+/* Tries orders that change; and beside the best change along each axis, all other laws. */
+static void grow_changes(struct search *s, size_t from)
+{
+    grow(s, from, s->smooth, s->options, INFINITY);
+    for (int a = 0; a < BR_AXES; a++) {
+        size_t best = s->count;
+        for (size_t i = from; i < s->count; i++)
+            if (s->candidate[i].laws == 1 && changes_along(&s->candidate[i].trial.law, a) &&
+                (best == s->count || s->candidate[i].log_weight > s->candidate[best].log_weight))
+                best = i;
+        if (best < s->count) {
+            const struct candidate c = s->candidate[best];
+            extend_by(s, &c, 0, s->options);
+        }
+    }
+}
+
 static void search_window(struct search *s, size_t window)
 {
-    static const double exact = 1e-6; /* no other law is needed */
     double start[STARTS][BR_UNKNOWNS];
     const size_t from = s->count;
     look_at(s, window);
@@ -459,19 +471,8 @@ static void search_window(struct search *s, size_t window)
     if (!s->any_model || s->count == from)
         return;
     grow(s, from, 0, s->smooth, all_plain);
-    const struct br_joint_trial *smooth = &likeliest(s, window)->trial;
-    if (!is_exact(s, smooth, exact) || goes_through_all(s, &smooth->law))
-        grow(s, from, s->smooth, s->options, INFINITY);
-    for (int a = 0; a < BR_AXES; a++) { /* the best change of each axis, beside another law */
-        const struct candidate *best = NULL;
-        for (const struct candidate *c = s->candidate + from; c < s->candidate + s->count; c++)
-            if (c->laws == 1 && is_kinked(&c->trial.law) && c->trial.law.of[a] && (!best || c->log_weight > best->log_weight))
-                best = c;
-        if (best) {
-            const struct candidate c = *best;
-            extend_by(s, &c, 0, s->options);
-        }
-    }
+    if (!is_exact(s, &likeliest(s, window)->trial))
+        grow_changes(s, from);
     for (int turn = 0; turn < 2; turn++) {
         const struct candidate best = *likeliest(s, window);
         if (best.trial.law.of[0] && best.trial.law.of[1])
@@ -617,8 +618,8 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
 static void widen(struct search *s, struct candidate *c)
 {
     const struct br_joint_law *law = &c->trial.law;
-    if (c->widened || is_kinked(law))
-        return;
+    if (c->widened || changes_along(law, 0) || changes_along(law, 1))
+        return; /* the interval reaches from order to order */
     look_at(s, c->window);
     br_joint_residuals(&s->used, &c->trial, s->residual);
     const bool noise = c->trial.sum > exact * exact * c->trial.weight;
@@ -768,10 +769,9 @@ static double student_below(double t, double freedom)
 /* The probability that the order of an axis is below this one, by one model. */
 static double below(const struct candidate *c, int axis, double order)
 {
-    const struct br_family *f = c->trial.law.of[axis];
     const double scale = hypot(c->deviation[ORDER(axis)], c->trial.open[axis]),
                  off = order - c->trial.value[ORDER(axis)],
-                 coarse = f && f->law == BR_LAW_KINK ? f->s : 0;
+                 coarse = changes_along(&c->trial.law, axis) ? c->trial.law.of[axis]->s : 0;
     if (!isfinite(scale))
         return 0.5;
     double sum = (1 - coarse) * student_below(off / scale, c->trial.freedom);
