@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Limits and uncertainties of values on finer and finer grids: published examples, exact power
  * laws, random sequences, means. */
-#include "study/fit/limits.h"
+#include "orders/limits/limits.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "support.h"
+#include "checks.h"
 
 /* |actual - printed| is at most half a unit of the last printed digit. */
 #define PRINTED(actual, printed, digits) CLOSE(actual, printed, 0.5000001 * pow(10, -(digits)))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Foreign programs: small scripts, written here, that do what programs do, good and bad. */
-#include "support.h"
+#include "checks.h"
 
 #include <dlfcn.h>
 #include <math.h>
@@ -14,9 +14,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "solver/clock.h"
-#include "study/orders/process.h"
-#include "study/orders/request.h"
+#include "base/clock.h"
+#include "orders/program/process.h"
+#include "orders/request.h"
 
 static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
 static const struct br_resolution_column unknowns = {

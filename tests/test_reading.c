@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
-#include "study/reading/reading.h"
-#include "support.h"
+#include "base/words.h"
+#include "orders/reading/reading.h"
+#include "checks.h"
 
 /* A table and what it must give: the heading and each row in a line, with a bar behind each field;
  * then the lines that are left, "2 title". Or with a colon first, the refusal. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "orders/request.h"
 #include "study/scene/file.h"
 #include "study/verify/verify.h"
 #include "support.h"
@@ -36,7 +37,7 @@ static const char *with(const char *part)
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    return br_verify_read("scene.yaml", with(part), scene, verify, err);
+    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, err);
 }
 
 TEST(test_whole)
@@ -84,20 +85,39 @@ TEST(test_whole)
     assert_ptr_equal(time->method.scheme, br_time_schemes[0]);
     assert_int_equal(time->method.axial_degree, 1);
     assert_int_equal(time->expectations, 2);
-    const struct br_expectation *l2 = &time->expectation[0], *tip = &time->expectation[1];
+    const struct br_verify_expectation *l2 = &time->expectation[0], *tip = &time->expectation[1];
     assert_ptr_equal(l2->norm, &br_norm_l2);
     assert_int_equal(l2->part, BR_PART_TOTAL);
-    CLOSE(l2->order, 1, 0);
-    CLOSE(l2->tolerance, 0.05, 0);
-    CLOSE(l2->ceiling, 3e-4, 0);
-    assert_true(isnan(l2->floor));
-    assert_int_equal(l2->line, 28);
+    CLOSE(l2->band.order, 1, 0);
+    CLOSE(l2->band.tolerance, 0.05, 0);
+    CLOSE(l2->band.ceiling, 3e-4, 0);
+    assert_true(isnan(l2->band.floor));
+    assert_int_equal(l2->band.line, 28);
     assert_ptr_equal(tip->norm, &br_norm_tip);
     assert_int_equal(tip->part, BR_PART_AXIAL);
-    CLOSE(tip->floor, 1e-5, 0);
-    CLOSE(tip->ceiling, 2e-5, 0);
+    CLOSE(tip->band.floor, 1e-5, 0);
+    CLOSE(tip->band.ceiling, 2e-5, 0);
     br_verify_clear(&v);
     br_scene_clear(&scene);
+}
+
+/* No bundled scene is taken for a study file of another program. */
+TEST(test_scenes_are_no_study_files)
+{
+    char **names, path[1200];
+    size_t count = 0;
+    struct br_error err = {0};
+    MUST(br_scene_list(&names, &count, &err));
+    assert_true(count > 5);
+    for (size_t i = 0; i < count; i++) {
+        char *text;
+        MUST(br_scene_find(names[i], path, sizeof path, &err));
+        MUST(br_scene_load(path, &text, &err));
+        if (br_is_study_file(text))
+            fail_msg("%s is taken for a study file", path);
+        free(text);
+    }
+    br_scene_list_free(names, count);
 }
 
 /* A part that the scene does not model has no order. */

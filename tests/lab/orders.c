@@ -18,11 +18,11 @@
 #include <string.h>
 #include <time.h>
 
-#include "study/orders/orders.h"
+#include "orders/orders.h"
 #include "tests/lab/grids.h"
 #include "tests/lab/others.h"
 #include "tests/lab/published.h"
-#include "tests/support.h"
+#include "tests/checks.h"
 
 enum { SAMPLE = 12, MANY = 300, MOST_LINES = 100000 };
 

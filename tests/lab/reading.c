@@ -31,8 +31,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/orders/request.h"
-#include "tests/support.h"
+#include "orders/request.h"
+#include "tests/checks.h"
 
 enum {
     MOST_CASES = 400,
