@@ -55,10 +55,10 @@ struct window {
     double log_prior;
 };
 
-/* A law that an axis may have: a family of laws.h, or an order that changes along it. */
+/* A law that a model may have: a family of laws.h, or an order that changes along an axis. */
 struct option {
     struct br_family family;
-    int axes; /* bits */
+    int axes; /* that may have it, as bits; 0: it is a floor */
 };
 
 struct search {
@@ -168,7 +168,7 @@ static bool enough(const struct search *s, const struct br_joint_law *law)
     return good;
 }
 
-/* Whether a window has cell i not. */
+/* Whether cell i is outside a window. */
 static bool is_out(const struct search *s, const struct window *w, size_t i)
 {
     const struct br_joint_cell *c = &s->all.cell[i];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Three values of a quantity on finer and finer grids, without a reference: the grid convergence index of Celik, Ghia, Roache, Freitas, Coleman and Raad,
- * "Procedure for Estimation and Reporting of Uncertainty Due to Discretization in CFD
- * Applications", J. Fluids Eng. 130, 078001 (2008), and of ASME V&V 20-2009. The limit with its
- * interval is that of limits.h.
+/* Three values of a quantity on finer and finer grids, without a reference: the grid convergence
+ * index of Celik, Ghia, Roache, Freitas, Coleman and Raad, "Procedure for Estimation and Reporting
+ * of Uncertainty Due to Discretization in CFD Applications", J. Fluids Eng. 130, 078001 (2008), and
+ * of ASME V&V 20-2009. The limit with its interval is that of limits.h.
  *
  * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine,
  * each smaller than the one before, with finite ratios, and value[count] is the quantity on these
@@ -16,15 +16,15 @@
 #include "orders/estimate.h"
 
 /* X(name, text): how a sequence of values behaves. */
-#define BR_SEQUENCE_LIST(X)                                  \
-    X(BR_SEQUENCE_UNKNOWN, "not known")                      \
-    X(BR_SEQUENCE_CONSTANT, "constant")                      \
-    X(BR_MONOTONE_CONVERGENCE, "monotone convergence")       \
-    X(BR_OSCILLATORY_CONVERGENCE, "oscillatory convergence") \
-    X(BR_MONOTONE_DIVERGENCE, "monotone divergence")         \
-    X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")   \
+#define BR_SEQUENCE_LIST(X)                                           \
+    X(BR_SEQUENCE_UNKNOWN, "not known")                               \
+    X(BR_SEQUENCE_CONSTANT, "constant")                               \
+    X(BR_MONOTONE_CONVERGENCE, "monotone convergence")                \
+    X(BR_OSCILLATORY_CONVERGENCE, "oscillatory convergence")          \
+    X(BR_MONOTONE_DIVERGENCE, "monotone divergence")                  \
+    X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")            \
     X(BR_SEQUENCE_SCATTER, "changes within the scatter of the means") \
-    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour") \
+    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour")                   \
     X(BR_SEQUENCE_LOGARITHM, "growth like a logarithm")
 
 enum br_sequence {
