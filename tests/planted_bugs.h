@@ -1801,7 +1801,7 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_orders test_an_axis_that_is_not_seen",
      ".rounding = br_orders_rounding(o, of->quantity, row)", ".rounding = 0"},
     {"blown_up_cells_count", "left out", "orders/grid/joint_fit.c",
-     "tests/test_orders test_blown_up_cells", "if (likeliest(s)->trial.worst > far / 2)",
+     "tests/test_orders test_blown_up_cells", "if (likeliest(s, 0)->trial.worst > far / 2)",
      "if (false)"},
     {"grids_without_a_logarithm", "lost", "orders/grid/joint_fit.c",
      "tests/test_orders test_laws_of_lines_on_a_grid",
