@@ -283,8 +283,8 @@ TEST(test_steps_apart)
     m.report.apart[BR_AXIS_TIME] = &other;
     see(&m);
     expect(seen, 0.5, "below theory");
-    const struct br_study rough =
-        pairs_of(&m, cell, (double[]){32, 18.65, 11.54, 6.66, 4.08, 2.35}); /* wider than the grid's */
+    const struct br_study rough = pairs_of(
+        &m, cell, (double[]){32, 18.65, 11.54, 6.66, 4.08, 2.35}); /* wider than the grid's */
     make(&m, 1e-3, 2, 10, 1);
     m.report.apart[BR_AXIS_TIME] = &rough;
     see(&m);
