@@ -138,7 +138,7 @@ const struct br_command br_command_check = {
     .bit = BR_FOR_CHECK,
     .name = "check",
     .arguments = "SCENE...",
-    .title = "checks that the orders are as expected: a verdict for CI",
+    .title = "a verdict for CI: are the orders as expected?",
     .about =
         "Checks that scenes still converge as their 'verify' parts expect. A scene without such a "
         "part is checked against theory. There are three kinds of study: over h at one time step, "
