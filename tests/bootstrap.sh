@@ -63,7 +63,7 @@ for package; do grep -qx "$package" "$W/to_be_had" || exit 100; done
 printf '%s\n' "$@" >>"$W/installed"
 END
 
-every_package=$(sed -n '/^\(test_\)*packages="/,/"$/s/^\([a-z][-a-z0-9]*\) .*/\1/p' "$1")
+every_package=$(sed -n '/^\(test_\|beam_\)*packages="/,/"$/s/^\([a-z][-a-z0-9]*\) .*/\1/p' "$1")
 [ "$(echo "$every_package" | wc -w)" -ge 10 ] || exit 1
 
 # machine WITHOUT...: a new tree, on a machine with all packages but these; nothing is to be had yet.
@@ -170,6 +170,12 @@ BUILD=$work/elsewhere starts 0 0 'a folder of its own' build
 configured 'a folder of its own' "^setup $work/elsewhere "
 CC=clang BUILD=$work/clang starts 3 4 'Clang is a package'
 grep -q ' clang$' "$work/calls" || failures=$((failures + 1))
+
+machine "$1" libsuitesparse-dev liblapacke-dev libblas-dev libsleef-dev libcmocka-dev
+starts 0 0 'the general part alone' orders
+configured 'the general part alone' '-Dbeam=disabled'
+starts 0 0 'the general part again' orders
+configured 'the general part again'
 CC=acc starts 2 0 'CC is no program'
 starts 2 0 'an unknown part' --with gpu build
 starts 2 0 'a part that is gone' --with ida build

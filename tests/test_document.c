@@ -11,7 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "support.h"
+#include "checks.h"
 #include "tables/document.h"
 
 static struct br_error err;

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "support.h"
+#include "checks.h"
 
 /* |actual - printed| is at most half a unit of the last printed digit. */
 #define PRINTED(actual, printed, digits) CLOSE(actual, printed, 0.5000001 * pow(10, -(digits)))

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "support.h"
+#include "checks.h"
 
 enum { ROWS = 8, MOST = 12, SOME = 7 };
 

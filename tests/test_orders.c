@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "orders/request.h"
-#include "study/scene/file.h"
-#include "support.h"
+#include "base/load.h"
+#include "checks.h"
 
 static struct br_error err;
 
@@ -1428,24 +1428,11 @@ TEST(test_long_expectation)
 
 TEST(test_is_study_file)
 {
-    char **names, path[1200];
-    size_t count = 0;
     assert_true(br_is_study_file(full));
     assert_true(br_is_study_file("table: a\n"));
     assert_false(br_is_study_file("  run: a\n"));
     assert_false(br_is_study_file("runs: a\ntitle: run: x\n"));
     assert_false(br_is_study_file(""));
-    MUST(br_scene_list(&names, &count, &err));
-    assert_true(count > 5);
-    for (size_t i = 0; i < count; i++) {
-        char *text;
-        MUST(br_scene_find(names[i], path, sizeof path, &err));
-        MUST(br_scene_load(path, &text, &err));
-        if (br_is_study_file(text))
-            fail_msg("%s is taken for a study file", path);
-        free(text);
-    }
-    br_scene_list_free(names, count);
 }
 
 static void problem_of(const char *from, const char *to, char problem[40])

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Foreign programs: small scripts, written here, that do what programs do, good and bad. */
-#include "support.h"
+#include "checks.h"
 
 #include <dlfcn.h>
 #include <math.h>
