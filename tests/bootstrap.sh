@@ -123,6 +123,12 @@ printf '%s\n' libgsl-dev libcmocka-dev >"$work/to_be_had"
 starts 0 8 'needed packages beside an optional one that is not to be had' test
 starts 0 0 'the same again' test
 
+machine "$1" fish
+mkdir "$work/tree/build" && echo fish-common >"$work/tree/build/not-installed"
+echo fish >"$work/to_be_had"
+starts 0 4 'a package whose name begins one that was given up' test
+grep -q '^fish$' "$work/installed" || failures=$((failures + 1))
+
 machine "$1" libgsl-dev
 starts 3 4 'a needed package is not to be had'
 starts 3 4 'and is tried again'
@@ -236,6 +242,19 @@ eval "$(sed -n '/^list_skipped()/,/^}/p' "${0%/*}/../bootstrap")"
 count=$(build=$work/log count_cases 1)
 [ "$count" = '1 passed, 1 failed' ] || {
     echo "the count of one good and one bad case is '$count'"
+    failures=$((failures + 1))
+}
+
+# A program that crashes or hangs counts as a failed case, also where none of its cases failed.
+cat >"$work/log/meson-logs/testlog.json" <<'END'
+{"stdout": "ok 1 - a\n", "result": "OK"}
+{"stdout": "ok 1 - b\n", "result": "FAIL"}
+{"stdout": "", "result": "TIMEOUT"}
+{"stdout": "said\n", "result": "OK"}
+END
+count=$(build=$work/log count_cases 1)
+[ "$count" = '3 passed, 2 failed' ] || {
+    echo "the count of a crash and a hang is '$count'"
     failures=$((failures + 1))
 }
 

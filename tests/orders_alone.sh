@@ -30,8 +30,8 @@ ends() {
     [ "${BEAMRATE-}" ] || return 0
     "$BEAMRATE" "$@" >out_beam 2>err_beam
     got=$?
-    for file in out out_beam; do # without its time
-        sed -i 's/; [0-9.]* s$/; SECONDS/' $file
+    for file in out out_beam err err_beam; do # without its time, and the program's own name
+        sed -i 's/; [0-9.]* s$/; SECONDS/; s/then type: [^ ]*/then type: PROGRAM/' $file
     done
     if [ $got != "$code" ] || ! cmp -s out out_beam || ! cmp -s err err_beam; then
         fails "beamrate-orders $*: not what beamrate prints"
@@ -52,7 +52,7 @@ says PASS
 ends 1 orders errors.csv --expect 'L2: h 1 +- 0.1'
 ends 2 orders nothing.csv
 ends 2 orders run.yaml
-says --trust
+says 'orders run.yaml --trust'
 ends 0 check study.yaml --quiet
 ends 1 check fails.yaml --quiet
 

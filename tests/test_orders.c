@@ -1384,8 +1384,9 @@ TEST(test_study_table)
     struct br_orders_request r;
     struct br_numbers numbers;
     snprintf(text, sizeof text, "table: %s\nerror: l2\n", path);
-    MUST(br_orders_request_read("elsewhere/s.yaml", text, &r, &err));
+    MUST(br_orders_request_read("/usr/s.yaml", text, &r, &err));
     assert_string_equal(r.table_path, path);
+    assert_true(r.table_is_outside);
     snprintf(message, sizeof message, "%s:3: l2: found 'x'", path); /* the table, not the study */
     REFUSED(br_orders_read(&r, &numbers, &err), BR_BAD_INPUT, message);
     br_numbers_clear(&numbers);
@@ -1398,6 +1399,7 @@ TEST(test_study_table)
     snprintf(in, sizeof in, "%.4000s/s.yaml", text);
     MUST(br_orders_request_read(in, study, &r, &err));
     assert_string_equal(r.table_path, path);
+    assert_false(r.table_is_outside);
     br_orders_request_clear(&r);
 }
 
