@@ -286,6 +286,9 @@ static enum br_status read_rest(poptContext context, struct br_options *o, struc
                        c->words            ? c->arguments
                        : c->most_words > 1 ? "files or names of bundled scenes"
                                            : "a file or the name of a bundled scene");
+    if (given > c->most_words && c->most_words == 1 && !c->words)
+        return br_fail(err, BR_BAD_INPUT, "one %s at a time; '%s' is a second one",
+                       c->bit == BR_FOR_ORDERS ? "table" : "scene", word[1]);
     if (given > c->most_words)
         return br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word[c->most_words]);
     if (!(o->word = br_allocate(given + 1, sizeof *o->word)))

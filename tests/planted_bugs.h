@@ -1806,6 +1806,11 @@ static const struct planted_bug planted_bugs[] = {
     {"floor_of_one_march", "bound", "study/trade/split.c",
      "tests/test_split test_floor_of_two_marches", "2 * c->d->study[norm][audit]",
      "c->d->study[norm][audit]"},
+    {"two_powers_pass_unsaid", "lost", "orders/expectation/verdict.c",
+     "tests/test_verdict test_two_powers", "if (!within)", "if (within)"},
+    {"few_digits_ask_for_finer_grids", "lost", "orders/expectation/verdict.c",
+     "tests/test_orders test_advice", "t.stays && !t.outside && enough(c) < few",
+     "t.stays && !t.outside && few < 0"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
