@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "orders/estimate.h"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -91,49 +89,6 @@ const char *br_interval_text(const struct br_estimate *e, char *buffer, size_t s
     }
     snprintf(buffer + used, size - used, "]");
     return buffer;
-}
-
-/* ---- linear least squares ---- */
-
-double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
-                              double *covariance)
-{
-    enum { MOST = 8 };
-    double tau[MOST], norm[MOST], inverse[MOST][MOST] = {{0}}, left = 0;
-    size_t column[MOST], rank = 0;
-    gsl_matrix_view rows = gsl_matrix_view_array(a, m, n);
-    gsl_vector_view scale = gsl_vector_view_array(tau, n), room = gsl_vector_view_array(norm, n);
-    gsl_permutation order = {n, column};
-    int sign;
-    gsl_linalg_QRPT_decomp(&rows.matrix, &scale.vector, &order, &sign, &room.vector);
-    while (rank < n && fabs(a[rank * n + rank]) > least * fabs(a[0]))
-        rank++;
-    for (size_t k = 0; k < rank; k++)
-        for (size_t i = k + 1; i-- > 0;) { /* R inverse = 1 */
-            double sum = i == k;
-            for (size_t l = i + 1; l <= k; l++)
-                sum -= a[i * n + l] * inverse[l][k];
-            inverse[i][k] = sum / a[i * n + i];
-        }
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++) {
-            double *out = &covariance[column[i] * n + column[j]];
-            *out = 0;
-            for (size_t k = 0; k < rank; k++)
-                *out += inverse[i][k] * inverse[j][k];
-        }
-    if (!b)
-        return NAN;
-    gsl_vector_view rest = gsl_vector_view_array(b, m);
-    gsl_linalg_QR_QTvec(&rows.matrix, &scale.vector, &rest.vector); /* b = Q' b */
-    for (size_t i = 0; i < n; i++) {
-        c[column[i]] = 0;
-        for (size_t k = i; k < rank; k++)
-            c[column[i]] += inverse[i][k] * b[k];
-    }
-    for (size_t i = rank; i < m; i++)
-        left += b[i] * b[i];
-    return left;
 }
 
 const char *br_range_text(double order, double highest, char *buffer, size_t size)

@@ -34,14 +34,6 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
  * of their squares. Infinite where there are too few. */
 double br_akaike(double sum, size_t count, size_t unknowns);
 
-/* Least squares |b - A c| with A of m rows of n columns, n <= 8, m >= n, by Q R with pivoting; c
- * (out) and covariance (out, n*n), (A' A)^-1, are zeros beyond the rank, the number of pivots above
- * `least` times the first one. Overwrites A and b. Returns the sum of squares. b and c may be NULL
- * together. Unlike GSL's own functions, which do not look whether their allocations fail, it
- * allocates nothing. */
-double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
-                              double *covariance);
-
 /* "2", "2 to 4", or "-" for none. buffer: at least 32 characters. */
 const char *br_range_text(double order, double highest, char *buffer, size_t size);
 

@@ -428,6 +428,76 @@ TEST(test_next_term_of_each_axis)
     }
 }
 
+/* Rates 2 2 1.4 along one size, or 2 2.. 1.4 1.4 with the change between two sizes, and x^1 along
+ * the other: both orders are in the interval, and none outside. */
+TEST(test_order_that_changes)
+{
+    enum { LINE = 6 };
+    static const double p = 2, q = 1.4;
+    for (int turn = 0; turn < 4; turn++) {
+        const int axis = turn % 2;
+        const size_t sizes = turn < 2 ? 4 : LINE;
+        const double at = turn < 2 ? 0.25 : 0.2;
+        struct br_observation o[LINE * LINE] = {{.error = 0}};
+        struct br_joint_fit found;
+        struct br_error err = {0};
+        for (size_t i = 0; i < sizes * sizes; i++) {
+            const double x = ldexp(1, -(int)(i / sizes)), y = ldexp(1, -(int)(i % sizes));
+            o[i].x[axis] = x;
+            o[i].x[1 - axis] = y;
+            o[i].error = (x > at ? pow(x, p) : pow(at, p - q) * pow(x, q)) + 0.3 * y;
+        }
+        MUST(br_joint_fit_solve(o, sizes * sizes, true, NULL, &found, &err));
+        CLOSE(found.order[axis].low, q, 0.01);
+        CLOSE(found.order[axis].high, p, 0.01);
+        AT_MOST(found.low99[axis], q);
+        AT_MOST(p, found.high99[axis]);
+        CLOSE(found.order[1 - axis].value, 1, 0.001);
+        assert_string_equal(found.law[axis], "a change of the order");
+    }
+}
+
+/* Errors that are another double next to each one have the same interval: on no machine, and with
+ * no library, do last bits decide. */
+TEST(test_last_bits)
+{
+    static const double error[] = {0.11,
+                                   0.060059999999999995,
+                                   0.035070000000000004,
+                                   0.0225,
+                                   0.1026025,
+                                   0.052605000000000006,
+                                   0.0275,
+                                   0,
+                                   0.10082625,
+                                   0.050625,
+                                   0.025650625,
+                                   0.01315125,
+                                   0.10015625,
+                                   0.050206406,
+                                   0.0252065625,
+                                   0.01265625};
+    enum { CELLS_OF = sizeof error / sizeof *error };
+    struct br_joint_fit first = {0}, found;
+    for (size_t turn = 0; turn < 6; turn++) {
+        struct br_observation o[CELLS_OF];
+        struct br_error err = {0};
+        size_t count = 0;
+        for (size_t i = 0; i < CELLS_OF; i++)
+            if (error[i] > 0)
+                o[count++] = (struct br_observation){
+                    .x = {ldexp(0.1, -(int)(i / 4)), ldexp(0.1, -(int)(i % 4))},
+                    .error = turn == 0 ? error[i] : nextafter(error[i], (i + turn) % 3 ? 0 : 1)};
+        MUST(br_joint_fit_solve(o, count, true, NULL, turn ? &found : &first, &err));
+        for (int axis = 0; axis < BR_AXES && turn > 0; axis++) {
+            CLOSE(found.order[axis].value, first.order[axis].value, 1e-6);
+            CLOSE(found.order[axis].low, first.order[axis].low, 1e-6);
+            CLOSE(found.order[axis].high, first.order[axis].high, 1e-6);
+        }
+    }
+    assert_true(br_joint_describes(&first));
+}
+
 /* By hand: x^1.5 of six sizes, with errors of the logarithm that are +-0.01 by turns and add up to
  * zero over each size, so that no order is off. A next term C x^p exp(D x) is not ruled out: two
  * unknowns have n ln S + 2 36 3/(36 - 4), three n ln S + 2 36 4/(36 - 5), 2.54 more. So the

@@ -59,13 +59,17 @@ static enum br_status take_order(const char **at, struct br_order_expectation *e
 
 static enum br_status take_name(const char **at, char name[64], struct br_error *err)
 {
-    const char *name_at = *at, *colon = br_list_quoted(&name_at);
-    size_t length = colon ? (size_t)(colon - 1 - name_at) : 0;
-    colon = colon ? br_skip_word(colon, "") : strchr(*at, ':');
-    if (!length && colon)
-        for (length = (size_t)(colon - *at); length && strchr(" \t\n", (*at)[length - 1]);)
+    const char *name_at = *at, *quoted = br_list_quoted(&name_at);
+    const char *colon = quoted ? br_skip_word(quoted, "") : NULL;
+    size_t length = quoted ? (size_t)(quoted - 1 - name_at) : 0;
+    if (!colon || *colon != ':') { /* quotes may be a part of a name, too */
+        name_at = *at;
+        colon = strchr(*at, ':');
+        for (length = colon ? (size_t)(colon - *at) : 0;
+             length && strchr(" \t\n", (*at)[length - 1]);)
             length--;
-    if (length == 0 || length > 63 || *colon != ':')
+    }
+    if (length == 0 || length > 63)
         return refuse(*at, "a name of at most 63 bytes and ':'", err);
     snprintf(name, 64, "%.*s", (int)length, name_at);
     *at = br_skip_word(colon, ":");

@@ -7,7 +7,6 @@
  * unknowns leave, H their curvature with that of the priors, the evidence is (Laplace)
  *     prior Gamma(f/2) (pi S)^(-f/2) det(H)^(-1/2),   f = n - k. */
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +15,6 @@
 
 #define LOG_C(axis) (BR_OF_AXIS * (axis) + BR_LOG_C)
 #define ORDER(axis) (BR_OF_AXIS * (axis) + BR_ORDER)
-#define SHAPE(axis) (BR_OF_AXIS * (axis) + BR_SHAPE)
 
 bool br_joint_has(enum br_joint_kind kind, int axis)
 {
@@ -29,31 +27,54 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
     return (struct br_estimate){value, value - half, value + half};
 }
 
+double br_akaike(double sum, size_t count, size_t unknowns)
+{
+    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
+    if (!(n > u + 1))
+        return INFINITY;
+    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
+}
+
 /* ---- the cells ---- */
 
-enum { MOST_TRIALS = 600, MOST_WINDOWS = 12 };
+enum { MOST_TRIALS = 600, MOST_WINDOWS = 12, MOST_SIZES = 64 };
 
 struct candidate {
     struct br_joint_trial trial;
-    double log_weight;             /* of the mixture; -infinite: there is no fit */
+    double log_weight;             /* of the mixture, then the weight; -infinite: there is no fit */
     double deviation[BR_UNKNOWNS]; /* of values in m and s */
-    double open[BR_AXES];          /* what else is not known of an order, as a scale */
-    size_t window, freedom, extras;
+    size_t window, laws;           /* laws: how many bend a power, or are a floor */
     bool widened;
+};
+
+/* The cells that count: without those that are far off what the others show, and without so many
+ * of the coarsest sizes. */
+struct window {
+    bool far;
+    size_t lost[BR_AXES];
+    double log_prior;
+};
+
+/* A law that a model may have: a family of laws.h, or an order that changes along an axis. */
+struct option {
+    struct br_family family;
+    int axes; /* that may have it, as bits; 0: it is a floor */
 };
 
 struct search {
     struct br_joint_cells all, used; /* all cells; those of a window */
-    struct br_joint_cell *room;      /* for so many again, for the jackknife */
+    struct br_joint_cell *rest;      /* room for so many again, for the jackknife */
+    bool *far;                       /* of all cells */
+    double *residual;                /* room for one of each cell */
     double unit[BR_AXES], log_error; /* of scaled sizes and errors: logarithms in m, s, m^(3/2) */
     bool any_model;
-    bool *out[MOST_WINDOWS]; /* what each window leaves out */
-    double log_prior[MOST_WINDOWS];
+    struct window window[MOST_WINDOWS];
     size_t windows, now;
-    bool has_far; /* the second window is that without cells that are far off */
     struct candidate *candidate;
     size_t count;
     double best; /* the largest log_weight */
+    struct option option[BR_FAMILIES + 4 * MOST_SIZES];
+    size_t smooth, options; /* those from `smooth` on are of orders that change */
 };
 
 static int by_value(const void *a, const void *b)
@@ -62,40 +83,42 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static size_t size_of(const struct br_joint_cells *c, int axis, double x)
+{
+    size_t i = c->sizes[axis];
+    while (i > 0 && c->size[axis][i - 1].x != x)
+        i--;
+    return i - 1;
+}
+
 /* The different sizes of an axis, ascending, after 0. value: room for two a cell. */
 static void take_sizes(struct search *s, const struct br_observation *o, int axis, double *value)
 {
     struct br_joint_cells *c = &s->all;
-    size_t n = 0;
     for (size_t i = 0; i < c->count; i++) {
-        value[n++] = o[i].x[axis];
-        value[n++] = o[i].ref[axis];
+        value[2 * i] = o[i].x[axis];
+        value[2 * i + 1] = o[i].ref[axis];
     }
-    qsort(value, n, sizeof *value, by_value);
-    const double most = value[n - 1];
+    qsort(value, 2 * c->count, sizeof *value, by_value);
+    const double most = value[2 * c->count - 1];
     s->unit[axis] = log(most);
-    c->size[axis][c->sizes[axis]++].x = 0;
-    for (size_t i = 0; i < n; i++)
-        if (value[i] / most > c->size[axis][c->sizes[axis] - 1].x) {
-            struct br_joint_size *next = &c->size[axis][c->sizes[axis]++];
-            next->x = value[i] / most;
-            next->log_x = log(next->x);
-        }
-    c->finest[axis] = 1;
+    c->sizes[axis] = 1;
+    for (size_t i = 0; i < 2 * c->count; i++)
+        if (value[i] / most > c->size[axis][c->sizes[axis] - 1].x)
+            c->size[axis][c->sizes[axis]++] =
+                (struct br_joint_size){.x = value[i] / most, .log_x = log(value[i] / most)};
     for (size_t i = 0; i < c->count; i++) {
-        c->finest[axis] = fmin(c->finest[axis], o[i].x[axis] / most);
-        for (size_t j = 1; j < c->sizes[axis]; j++) {
-            if (c->size[axis][j].x == o[i].x[axis] / most)
-                c->cell[i].at[axis] = j;
-            if (c->size[axis][j].x == o[i].ref[axis] / most)
-                c->cell[i].against[axis] = j;
-        }
+        struct br_joint_cell *cell = &c->cell[i];
+        cell->at[axis] = size_of(c, axis, o[i].x[axis] / most);
+        cell->against[axis] = size_of(c, axis, o[i].ref[axis] / most);
+        c->log_finest[axis] = fmin(c->log_finest[axis], c->size[axis][cell->at[axis]].log_x);
     }
 }
 
-static void take_cells(struct search *s, const struct br_observation *o, double *value)
+static void take_cells(struct search *s, const struct br_observation *o)
 {
     struct br_joint_cells *c = &s->all;
+    double *value = s->residual;
     for (size_t i = 0; i < c->count; i++)
         value[i] = log(o[i].error);
     qsort(value, c->count, sizeof *value, by_value);
@@ -103,12 +126,11 @@ static void take_cells(struct search *s, const struct br_observation *o, double 
     c->lowest = value[0] - s->log_error;
     for (size_t i = 0; i < c->count; i++) {
         double copies = 0;
-        for (size_t j = 0; j < c->count && s->any_model; j++)
+        for (size_t j = 0; j < c->count; j++)
             copies += o[j].error == o[i].error;
         c->cell[i].log_error = log(o[i].error) - s->log_error;
         c->cell[i].weight = s->any_model ? 1 / copies : 1;
         c->cell[i].rounded = o[i].rounding / o[i].error / sqrt(3);
-        c->cell[i].from = i;
     }
     for (int a = 0; a < BR_AXES; a++)
         take_sizes(s, o, a, value);
@@ -130,70 +152,86 @@ static size_t sizes_of(const struct br_joint_cells *c, int axis)
     return differs ? sizes : 0;
 }
 
-static double weight_of(const struct br_joint_cells *c)
-{
-    double sum = 0;
-    for (size_t i = 0; i < c->count; i++)
-        sum += c->cell[i].weight;
-    return sum;
-}
-
 /* A fit needs more cells than unknowns, and that of an axis more sizes: one that goes through all
  * of them shows nothing. */
 static bool enough(const struct search *s, const struct br_joint_law *law)
 {
     int unknown[BR_UNKNOWNS];
     const double spare = s->any_model ? 1 : 2, noise = 1e-9;
-    bool good = weight_of(&s->used) + noise >= (double)br_joint_unknowns(law, unknown) + spare;
+    double weight = noise;
+    for (size_t i = 0; i < s->used.count; i++)
+        weight += s->used.cell[i].weight;
+    bool good = weight >= (double)br_joint_unknowns(law, unknown) + spare;
     for (int a = 0; a < BR_AXES; a++)
         good = good && (!br_joint_has(law->kind, a) ||
                         sizes_of(&s->used, a) >= (law->of[a] && s->now > 0 ? 4 : 3));
     return good;
 }
 
-/* ---- evidence ---- */
-
-double br_akaike(double sum, size_t count, size_t unknowns)
+/* Whether cell i is outside a window. */
+static bool is_out(const struct search *s, const struct window *w, size_t i)
 {
-    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
-    if (!(n > u + 1))
-        return INFINITY;
-    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
+    const struct br_joint_cell *c = &s->all.cell[i];
+    return (w->far && s->far[i]) || c->at[0] + w->lost[0] >= s->all.sizes[0] ||
+           c->at[1] + w->lost[1] >= s->all.sizes[1];
 }
 
-/* The logarithm of the determinant of a covariance, by Cholesky; NaN: it has none. */
-static double log_determinant(const double *covariance, size_t n)
+static void add_window(struct search *s, struct window w)
 {
-    double l[BR_UNKNOWNS][BR_UNKNOWNS], sum = 0;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j <= i; j++) {
-            double left = covariance[i * n + j];
-            for (size_t k = 0; k < j; k++)
-                left -= l[i][k] * l[j][k];
-            l[i][j] = i == j ? sqrt(left) : left / l[j][j];
-            sum += i == j ? 2 * log(l[i][i]) : 0;
+    w.log_prior = (double)(w.lost[0] + w.lost[1]) * log(br_priors.leaves_coarse);
+    for (size_t i = 0; i < s->all.count; i++) {
+        w.log_prior += w.far && s->far[i] ? log(br_priors.leaves_inside) : 0;
+        w.log_prior += is_out(s, &w, i) ? s->all.cell[i].weight * log(br_priors.unexplained) : 0;
+    }
+    s->window[s->windows++] = w;
+}
+
+/* The laws of laws.h with one parameter; and orders that change at size j, or between it and the
+ * next one, with a rate of fine sizes and two coarse sizes before. As on lines, that of the coarse
+ * ones may count where these are more, or the others few. */
+static void take_options(struct search *s)
+{
+    enum { FEW = 3, BOTH = 3 };
+    for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
+        const bool is_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES ||
+                              f->law == BR_LAW_OFFSET,
+                   bends = f->law == BR_LAW_NEXT ? f->prior > 0.015
+                           : f->law == BR_LAW_SQUARES || f->law == BR_LAW_LOGARITHM
+                               ? f->prior >= 0.005
+                               : false;
+        if (f->curve == 0 && (is_floor || bends))
+            s->option[s->options++] = (struct option){*f, is_floor ? 0 : BOTH};
+    }
+    s->smooth = s->options;
+    for (int a = 0; a < BR_AXES; a++) {
+        const struct br_joint_size *size = s->all.size[a];
+        const size_t m = s->all.sizes[a] - 1;
+        for (size_t i = 4; i + 3 <= 2 * m && m <= MOST_SIZES; i++) {
+            const size_t j = i / 2, between = i % 2, fine = j - 1 + between, coarse = m - j;
+            const bool counts = fine <= FEW || coarse >= fine;
+            s->option[s->options++] = (struct option){{.law = BR_LAW_KINK,
+                                                       .s = counts ? br_priors.kink_coarse : 0,
+                                                       .low = size[j].log_x,
+                                                       .high = size[j + between].log_x,
+                                                       .prior = br_priors.kink / (double)m},
+                                                      1 << a};
         }
-    return sum;
+    }
 }
 
-static double log_evidence(const struct search *s, const struct candidate *c, size_t unknowns)
+/* ---- one model ---- */
+
+static double log_evidence(const struct search *s, const struct candidate *c)
 {
     const struct br_joint_trial *t = &c->trial;
     double rounded = 0;
     for (size_t i = 0; i < s->used.count; i++)
         rounded += s->used.cell[i].weight * pow(s->used.cell[i].rounded, 2) / t->weight;
-    const double f = (double)c->freedom;
+    const double f = t->freedom;
     const double squares = t->sum + (pow(br_priors.least_scatter, 2) + rounded) * f;
-    return s->log_prior[c->window] + br_joint_log_prior(&s->all, t) + gsl_sf_lngamma(f / 2) -
-           f / 2 * log(M_PI * squares) + log_determinant(t->covariance, unknowns) / 2 -
+    return s->window[c->window].log_prior + br_joint_log_prior(&s->all, t) + lgamma(f / 2) -
+           f / 2 * log(M_PI * squares) + t->log_determinant / 2 -
            log1p(sqrt(squares / f) / br_priors.usual_scatter);
-}
-
-/* What a known deviation adds to the scale of Student's distribution, so that it widens the 95 %
- * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
-static double of_known(double freedom)
-{
-    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }
 
 /* The values of a trial in m and s: a constant is that of the power, at a size of one. */
@@ -202,29 +240,22 @@ static void in_units(const struct search *s, const struct br_joint_trial *t,
 {
     memcpy(value, t->value, sizeof t->value);
     for (int a = 0; a < BR_AXES; a++)
-        value[LOG_C(a)] +=
-            s->log_error - value[ORDER(a)] * s->unit[a] - br_joint_bend(&s->used, t, a);
+        value[LOG_C(a)] += s->log_error - value[ORDER(a)] * s->unit[a] - t->bend[a];
     value[BR_LOG_F] += s->log_error;
 }
 
-/* Their deviations, and what is not known of an order beside them: a law is truncated, and printed
- * digits are rounded. free: the degrees of freedom. */
-static void set_deviations(const struct search *s, struct candidate *c, const int *unknown,
-                           size_t unknowns, double free)
+static void set_deviations(const struct search *s, struct candidate *c)
 {
-    const double *covariance = c->trial.covariance, residual = c->trial.sum / free;
-    for (size_t i = 0; i < unknowns; i++) {
-        const double *row = &covariance[i * unknowns];
-        double variance = row[i];
-        for (int a = 0; a < BR_AXES; a++) {
-            const double unit = s->unit[a], change = br_joint_change(&s->used, &c->trial, a);
-            if (unknown[i] == LOG_C(a) && unit != 0)
-                variance += unit * unit * row[unknowns + i + 1] - 2 * unit * row[i + 1];
-            if (unknown[i] == ORDER(a))
-                c->open[a] = hypot(c->trial.slope[a] * (1e-6 + br_priors.truncation * change +
-                                                        br_priors.next_term * change * change),
-                                   of_known(free) * c->trial.rounded[a]);
-        }
+    int unknown[BR_UNKNOWNS];
+    const struct br_joint_trial *t = &c->trial;
+    const size_t n = br_joint_unknowns(&t->law, unknown);
+    const double residual = t->sum / fmax(1, t->weight - (double)n);
+    for (size_t i = 0; i < n; i++) {
+        double variance = t->covariance[i][i];
+        for (int a = 0; a < BR_AXES; a++) /* the order is behind the constant */
+            if (unknown[i] == LOG_C(a) && s->unit[a] != 0)
+                variance += s->unit[a] * (s->unit[a] * t->covariance[i + 1][i + 1] -
+                                          2 * t->covariance[i][i + 1]);
         c->deviation[unknown[i]] = variance > 0 ? sqrt(residual * variance) : INFINITY;
     }
 }
@@ -239,43 +270,42 @@ static bool ends_at_a_floor(const struct br_joint_trial *t)
     return ends && br_joint_unknowns(&t->law, unknown) > 2;
 }
 
-/* Adds the fit of a law to the window, from the best of these starts. */
-static struct candidate *add_candidate(struct search *s, const struct br_joint_law *law,
-                                       const double (*start)[BR_UNKNOWNS], size_t starts)
+static bool changes_along(const struct br_joint_law *law, int axis)
 {
-    int unknown[BR_UNKNOWNS];
+    return law->of[axis] && law->of[axis]->law == BR_LAW_KINK;
+}
+
+/* Adds the fit of a law to the window, from the best of these starts. */
+static void add_candidate(struct search *s, const struct br_joint_law *law,
+                          const double (*start)[BR_UNKNOWNS], size_t starts)
+{
     struct candidate *c = &s->candidate[s->count];
     if (s->count == MOST_TRIALS || !enough(s, law))
-        return NULL;
-    *c = (struct candidate){.trial = {.sum = INFINITY}, .window = s->now};
+        return;
+    *c = (struct candidate){.trial = {.sum = INFINITY}, .window = s->now, .log_weight = -INFINITY};
     for (size_t i = 0; i < starts; i++) {
         struct br_joint_trial t = {.law = *law, .sum = INFINITY};
         memcpy(t.value, start[i], sizeof t.value);
-        br_joint_descend(&s->used, 0, &t);
-        if (t.sum < c->trial.sum)
+        if (starts > 1)
+            br_joint_approach(&s->used, 0, &t);
+        if (i == 0 || t.sum < c->trial.sum)
             c->trial = t;
     }
-    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial))
-        return NULL;
-    const size_t unknowns = br_joint_unknowns(law, unknown);
-    const double free = c->trial.weight - (double)unknowns;
-    c->freedom = free >= 1 ? (size_t)(free + 1e-9) : 1;
-    set_deviations(s, c, unknown, unknowns, free);
-    c->extras = (size_t)((law->of[0] != NULL) + (law->of[1] != NULL) + (law->floor != NULL));
-    c->log_weight = s->any_model ? log_evidence(s, c, unknowns)
-                                 : -br_akaike(c->trial.sum, s->used.count, unknowns) / 2;
-    if (!isfinite(c->log_weight))
-        return NULL;
-    s->best = fmax(s->best, c->log_weight);
+    br_joint_descend(&s->used, &c->trial);
+    c->laws = (size_t)((law->of[0] != NULL) + (law->of[1] != NULL) + (law->floor != NULL));
     s->count++;
-    return c;
+    if (!isfinite(c->trial.sum) || ends_at_a_floor(&c->trial))
+        return;
+    set_deviations(s, c);
+    const double weight = s->any_model ? log_evidence(s, c)
+                                       : -br_akaike(c->trial.sum, s->used.count,
+                                                    br_joint_unknowns(law, (int[BR_UNKNOWNS]){0})) /
+                                             2;
+    c->log_weight = isfinite(weight) ? weight : -INFINITY;
+    s->best = fmax(s->best, c->log_weight);
 }
 
 /* ---- the search ---- */
-
-static const double orders[][BR_AXES] = {{1, 1}, {2, 1}, {4, 1}, {1, 4}, {4, 4}},
-                    correlations[] = {0, -0.9, 0.9};
-enum { STARTS = 15 };
 
 static const struct br_joint_law plain[] = {
     {.kind = BR_JOINT_BOTH, .sum = BR_SUM_ANY},
@@ -284,59 +314,87 @@ static const struct br_joint_law plain[] = {
     {.kind = BR_JOINT_BOTH, .sum = BR_SUM_ADDS},
     {.kind = BR_JOINT_BOTH, .sum = BR_SUM_SUBTRACTS},
 };
-enum { PLAIN = sizeof plain / sizeof *plain, KINDS = BR_JOINT_SPACE + 1 };
+enum { PLAIN = sizeof plain / sizeof *plain, KINDS = BR_JOINT_SPACE + 1, STARTS = 15 };
 
 /* The starts of one power: the sum of squares has local minima in r and p. */
 static size_t starts_of(const struct br_joint_cells *cells, const struct br_joint_law *law,
                         double (*start)[BR_UNKNOWNS])
 {
+    static const double orders[][BR_AXES] = {{1, 1}, {2, 2}, {4, 4}, {4, 1}, {1, 4}},
+                        correlations[] = {0, -0.9, 0.9};
+    const bool both = law->kind == BR_JOINT_BOTH;
     size_t count = 0;
-    const size_t turns = law->kind == BR_JOINT_BOTH && law->sum == BR_SUM_ANY ? 3 : 1;
-    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++)
-        for (size_t j = 0; j < turns; j++)
+    for (size_t i = 0; i < (both ? 5 : 3); i++)
+        for (size_t j = 0; j < (both && law->sum == BR_SUM_ANY ? 3 : 1); j++)
             br_joint_start(cells, orders[i], correlations[j], start[count++]);
     return count;
 }
 
-static bool same_law(const struct br_joint_law *a, const struct br_joint_law *b)
+static bool is_tried(const struct search *s, const struct br_joint_law *law)
 {
-    return a->kind == b->kind && a->sum == b->sum && a->of[0] == b->of[0] && a->of[1] == b->of[1] &&
-           a->floor == b->floor;
+    for (const struct candidate *c = s->candidate; c < s->candidate + s->count; c++) {
+        const struct br_joint_law *o = &c->trial.law;
+        if (c->window == s->now && o->kind == law->kind && o->sum == law->sum &&
+            o->of[0] == law->of[0] && o->of[1] == law->of[1] && o->floor == law->floor)
+            return true;
+    }
+    return false;
 }
 
-/* Starts from those of a candidate with a law of these axes: a small next term, or one that is
- * larger than the first, so that a lower order comes up. */
-static void extend(struct search *s, const struct candidate *from, struct br_joint_law law,
-                   const struct br_family *family, int first, int last)
+/* Tries a candidate's model with a law of these axes, as bits; 0: it is a floor. What it adds is
+ * small, or larger than the first term, so that a lower order comes up. */
+static void extend(struct search *s, const struct candidate *from, const struct br_family *f,
+                   int axes)
 {
+    const bool kink = f->law == BR_LAW_KINK;
+    struct br_joint_law law = from->trial.law;
     double start[2][BR_UNKNOWNS];
-    for (int a = first; a <= last; a++)
-        law.of[a] = family;
-    for (size_t i = 0; i < s->count; i++)
-        if (s->candidate[i].window == s->now && same_law(&s->candidate[i].trial.law, &law))
-            return;
     for (int i = 0; i < 2; i++) {
         memcpy(start[i], from->trial.value, sizeof *start);
-        for (int a = first; a <= last; a++) {
-            start[i][SHAPE(a)] = i ? 1.5 : br_joint_shape_start(family);
-            start[i][ORDER(a)] = fmax(0.3, start[i][ORDER(a)] - 0.5 * i * family->s);
+        if (kink && i)
+            start[i][BR_THETA] = 0;
+        for (int a = 0; a < BR_AXES; a++) {
+            double *v = &start[i][BR_OF_AXIS * a];
+            if (!(axes >> a & 1))
+                continue;
+            law.of[a] = f;
+            v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f);
+            v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * (kink ? 1 : f->s));
+            v[BR_PLACE] = (f->low + f->high) / 2;
         }
     }
-    add_candidate(s, &law, start, first <= last && family->law == BR_LAW_NEXT ? 2 : 1);
+    if (!axes)
+        law.floor = f;
+    if (!is_tried(s, &law))
+        add_candidate(s, &law, start, axes && (kink || f->law == BR_LAW_NEXT) ? 2 : 1);
 }
 
-static bool is_of_axis(const struct br_family *f)
+/* Tries a candidate's model with each option in this range. Laws of an axis are exchanged where
+ * both axes have one. */
+static void extend_by(struct search *s, const struct candidate *from, size_t first, size_t end)
 {
-    return f->curve == 0 &&
-           (f->law == BR_LAW_NEXT                                    ? f->prior > 0.015
-            : f->law == BR_LAW_SQUARES || f->law == BR_LAW_LOGARITHM ? f->prior >= 0.005
-                                                                     : false);
+    const struct br_joint_law *law = &from->trial.law;
+    const bool bent = law->of[0] && law->of[1];
+    for (const struct option *o = s->option + first; o < s->option + end; o++) {
+        for (int a = 0; a < BR_AXES; a++)
+            if (o->axes >> a & 1 && br_joint_has(law->kind, a) && (bent || !law->of[a]))
+                extend(s, from, &o->family, 1 << a);
+        if (from->laws == 0 && law->kind == BR_JOINT_BOTH && o->family.law == BR_LAW_NEXT)
+            extend(s, from, &o->family, 3);
+        if (!o->axes && !law->floor && !bent)
+            extend(s, from, &o->family, 0);
+    }
 }
 
-static bool is_floor(const struct br_family *f)
+/* The likeliest candidate of a window; MOST_WINDOWS: of all. */
+static const struct candidate *likeliest(const struct search *s, size_t window)
 {
-    return f->curve == 0 &&
-           (f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET);
+    const struct candidate *best = NULL;
+    for (const struct candidate *c = s->candidate; c < s->candidate + s->count; c++)
+        if ((c->window == window || window == MOST_WINDOWS) &&
+            (!best || c->log_weight > best->log_weight))
+            best = c;
+    return best;
 }
 
 /* Models that are less probable than the best one by more than this logarithm are not extended, nor
@@ -344,29 +402,36 @@ static bool is_floor(const struct br_family *f)
  * that may be are. */
 static const double occam = 5, all_plain = 15;
 
-static void extend_all(struct search *s, size_t extras)
+/* Extends the candidates from `from` on, also those that come so, by the options in this range.
+ * plain_margin: in place of all_plain. */
+static void grow(struct search *s, size_t from, size_t first, size_t end, double plain_margin)
 {
-    double least = s->best - all_plain;
-    for (size_t i = 0; i < s->count && extras > 0; i++)
-        if (s->candidate[i].window == s->now && s->candidate[i].extras == 0)
-            least = fmax(fmax(least, s->best - occam), s->candidate[i].log_weight);
-    for (size_t i = 0, end = s->count; i < end; i++) {
-        const struct candidate from = s->candidate[i];
-        if (from.window != s->now || from.extras != extras || from.log_weight < least)
-            continue;
-        for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
-            struct br_joint_law law = from.trial.law;
-            for (int a = 0; a < BR_AXES && is_of_axis(f); a++)
-                if (br_joint_has(law.kind, a) && !law.of[a])
-                    extend(s, &from, law, f, a, a);
-            if (extras == 0 && is_of_axis(f) && f->law == BR_LAW_NEXT && law.kind == BR_JOINT_BOTH)
-                extend(s, &from, law, f, 0, 1);
-            if (is_floor(f) && !law.floor) {
-                law.floor = f;
-                extend(s, &from, law, f, 1, 0);
-            }
-        }
+    double plainest = -INFINITY;
+    for (size_t i = from; i < s->count; i++)
+        if (s->candidate[i].laws == 0)
+            plainest = fmax(plainest, s->candidate[i].log_weight);
+    for (size_t i = from; i < s->count; i++) {
+        const struct candidate c = s->candidate[i];
+        if (c.laws == 0   ? !(c.log_weight < plainest - plain_margin)
+            : c.laws == 1 ? c.log_weight > fmax(s->best - occam, plainest)
+                          : false)
+            extend_by(s, &c, first, end);
     }
+}
+
+/* Whether a model describes the cells to their digits, with more sizes than unknowns of a bent
+ * axis: then no order that changes is tried. */
+static bool is_exact(const struct search *s, const struct br_joint_trial *t)
+{
+    static const double least = 1e-6, digits = 1.5; /* variances of rounding */
+    double digits_make = 0;
+    bool spare = true;
+    for (size_t i = 0; i < s->used.count; i++)
+        digits_make +=
+            s->used.cell[i].weight * (least * least + digits * pow(s->used.cell[i].rounded, 2));
+    for (int a = 0; a < BR_AXES; a++)
+        spare = spare && (!t->law.of[a] || sizes_of(&s->used, a) > (t->law.floor ? 4 : 3));
+    return spare && t->sum <= digits_make;
 }
 
 /* Goes to a window: its cells are used from here on. */
@@ -375,28 +440,23 @@ static void look_at(struct search *s, size_t window)
     s->now = window;
     s->used.count = 0;
     for (size_t i = 0; i < s->all.count; i++)
-        if (!s->out[window][i])
+        if (!is_out(s, &s->window[window], i))
             s->used.cell[s->used.count++] = s->all.cell[i];
 }
 
-/* Of the best model of a window whose axes both have laws: each other law of each axis, beside the
- * law of the other axis. */
-static void exchange(struct search *s)
+/* Tries orders that change; and beside the best change along each axis, all other laws. */
+static void grow_changes(struct search *s, size_t from)
 {
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct candidate *best = NULL;
-        for (size_t i = 0; i < s->count; i++) {
-            const struct candidate *c = &s->candidate[i];
-            if (c->window == s->now && (!best || c->log_weight > best->log_weight))
-                best = c;
-        }
-        if (!best || !best->trial.law.of[0] || !best->trial.law.of[1])
-            return;
-        const struct candidate from = *best;
-        for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
-            struct br_joint_law law = from.trial.law;
-            if (is_of_axis(f))
-                extend(s, &from, law, f, axis, axis);
+    grow(s, from, s->smooth, s->options, INFINITY);
+    for (int a = 0; a < BR_AXES; a++) {
+        size_t best = s->count;
+        for (size_t i = from; i < s->count; i++)
+            if (s->candidate[i].laws == 1 && changes_along(&s->candidate[i].trial.law, a) &&
+                (best == s->count || s->candidate[i].log_weight > s->candidate[best].log_weight))
+                best = i;
+        if (best < s->count) {
+            const struct candidate c = s->candidate[best];
+            extend_by(s, &c, 0, s->options);
         }
     }
 }
@@ -404,13 +464,20 @@ static void exchange(struct search *s)
 static void search_window(struct search *s, size_t window)
 {
     double start[STARTS][BR_UNKNOWNS];
+    const size_t from = s->count;
     look_at(s, window);
     for (size_t i = 0; i < (s->any_model ? PLAIN : KINDS); i++)
         add_candidate(s, &plain[i], start, starts_of(&s->used, &plain[i], start));
-    for (size_t extras = 0; extras < 2 && s->any_model; extras++)
-        extend_all(s, extras);
-    for (int turn = 0; turn < 2 && s->any_model; turn++)
-        exchange(s);
+    if (!s->any_model || s->count == from)
+        return;
+    grow(s, from, 0, s->smooth, all_plain);
+    if (!is_exact(s, &likeliest(s, window)->trial))
+        grow_changes(s, from);
+    for (int turn = 0; turn < 2; turn++) {
+        const struct candidate best = *likeliest(s, window);
+        if (best.trial.law.of[0] && best.trial.law.of[1])
+            extend_by(s, &best, 0, s->smooth);
+    }
 }
 
 /* The models of the first windows that are not ruled out, fitted to another one. */
@@ -418,56 +485,23 @@ static void refit_window(struct search *s, size_t window, size_t count)
 {
     look_at(s, window);
     for (size_t i = 0; i < count; i++) {
-        const struct candidate *from = &s->candidate[i];
-        bool known = !(from->log_weight > s->best - occam || from->extras == 0);
-        for (size_t j = count; j < s->count && !known; j++)
-            known = s->candidate[j].window == window &&
-                    same_law(&s->candidate[j].trial.law, &from->trial.law);
-        if (!known)
-            add_candidate(s, &from->trial.law, (const double(*)[BR_UNKNOWNS]) & from->trial.value,
-                          1);
+        const struct candidate *c = &s->candidate[i];
+        if (isfinite(c->log_weight) && (c->log_weight > s->best - occam || c->laws == 0) &&
+            !is_tried(s, &c->trial.law))
+            add_candidate(s, &c->trial.law, (const double(*)[BR_UNKNOWNS]) & c->trial.value, 1);
     }
-}
-
-/* ---- windows ---- */
-
-/* The prior of the cells that are out; of a size as a whole: it counts once. */
-static void close_window(struct search *s, double share)
-{
-    double sum = log(share);
-    size_t out = 0;
-    for (size_t i = 0; i < s->all.count; i++)
-        if (s->out[s->windows][i]) {
-            sum += s->all.cell[i].weight * log(br_priors.unexplained);
-            out++;
-        }
-    s->log_prior[s->windows] = sum;
-    s->windows += out > 0 || s->windows == 0;
-}
-
-static bool *open_window(struct search *s)
-{
-    memset(s->out[s->windows], 0, s->all.count * sizeof *s->out[0]);
-    return s->out[s->windows];
-}
-
-static const struct candidate *likeliest(const struct search *s)
-{
-    size_t best = 0;
-    for (size_t i = 1; i < s->count; i++)
-        best = s->candidate[i].log_weight > s->candidate[best].log_weight ? i : best;
-    return &s->candidate[best];
 }
 
 /* So far off, in logarithms, a cell does not show the order. */
 static const double far = 0.5;
 
 /* The window without cells that are far off what the others show, at most a quarter of all. */
-static void leave_out_far(struct search *s, double *room)
+static void leave_out_far(struct search *s)
 {
     static const double robust = 0.1;
     double start[STARTS][BR_UNKNOWNS];
     struct br_joint_trial best = {.sum = INFINITY};
+    size_t count = 0;
     look_at(s, 0);
     for (size_t i = 0; i < KINDS; i++)
         for (size_t j = enough(s, &plain[i]) ? starts_of(&s->used, &plain[i], start) : 0;
@@ -475,56 +509,38 @@ static void leave_out_far(struct search *s, double *room)
             struct br_joint_trial t = {.law = plain[i], .sum = INFINITY};
             memcpy(t.value, start[j], sizeof t.value);
             for (double scale = 10 * robust; scale >= robust; scale /= 3)
-                br_joint_descend(&s->used, scale, &t);
+                br_joint_approach(&s->used, scale, &t);
             if (t.sum < best.sum)
                 best = t;
         }
     if (!isfinite(best.sum))
         return;
-    br_joint_residuals(&s->used, &best, room);
-    bool *out = open_window(s);
-    size_t count = 0;
+    br_joint_residuals(&s->used, &best, s->residual);
     for (size_t i = 0; i < s->all.count; i++)
-        count += out[i] = fabs(room[i]) > far;
+        count += s->far[i] = fabs(s->residual[i]) > far;
     if (count > 0 && 4 * count <= s->all.count)
-        close_window(s, pow(br_priors.leaves_inside, (double)count));
+        add_window(s, (struct window){.far = true});
 }
 
-/* Windows without the coarsest sizes of one axis or of both, of those that window `from` has. */
-static void leave_out_coarse(struct search *s, size_t from)
+/* All windows: the first has all cells. */
+static void search_all(struct search *s)
 {
-    static const int lost[][BR_AXES] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}};
-    for (size_t w = 0; w < sizeof lost / sizeof *lost && s->windows < MOST_WINDOWS; w++) {
-        bool *out = open_window(s), fits = true;
-        for (int a = 0; a < BR_AXES; a++) {
-            size_t coarsest = 0;
-            for (size_t i = 0; i < s->all.count; i++)
-                coarsest = s->all.cell[i].at[a] > coarsest ? s->all.cell[i].at[a] : coarsest;
-            fits = fits && coarsest >= (size_t)lost[w][a] + 3;
-            for (size_t i = 0; i < s->all.count; i++)
-                out[i] |= s->out[from][i] || s->all.cell[i].at[a] + (size_t)lost[w][a] > coarsest;
-        }
-        if (fits)
-            close_window(s, pow(br_priors.leaves_coarse, lost[w][0] + lost[w][1]));
-    }
-}
-
-static void search_all(struct search *s, double *room)
-{
-    open_window(s);
-    close_window(s, 1);
+    static const size_t lost[][BR_AXES] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}};
+    add_window(s, (struct window){0});
     search_window(s, 0);
     if (!s->any_model || s->count == 0)
         return;
-    if (likeliest(s)->trial.worst > far / 2)
-        leave_out_far(s, room);
-    s->has_far = s->windows > 1;
-    if (s->has_far)
+    if (likeliest(s, 0)->trial.worst > far / 2)
+        leave_out_far(s);
+    if (s->windows > 1)
         search_window(s, 1);
-    const size_t first = s->windows, count = s->count;
-    leave_out_coarse(s, likeliest(s)->window);
-    for (size_t w = first; w < s->windows; w++)
-        refit_window(s, w, count);
+    const size_t count = s->count;
+    const struct window from = s->window[likeliest(s, MOST_WINDOWS)->window];
+    for (size_t w = 0; w < sizeof lost / sizeof *lost; w++)
+        if (s->all.sizes[0] > lost[w][0] + 3 && s->all.sizes[1] > lost[w][1] + 3) {
+            add_window(s, (struct window){.far = from.far, .lost = {lost[w][0], lost[w][1]}});
+            refit_window(s, s->windows - 1, count);
+        }
 }
 
 /* ---- intervals ---- */
@@ -534,28 +550,28 @@ static void search_all(struct search *s, double *room)
 static double structure_of(const struct br_joint_cells *cells, const double *residual)
 {
     double products = 0, pairs = 0, squares = 0;
-    for (const struct br_joint_cell *at = cells->cell; at < cells->cell + cells->count; at++) {
-        squares += pow(residual[at - cells->cell], 2) / (double)cells->count;
+    for (size_t i = 0; i < cells->count; i++) {
+        const struct br_joint_cell *at = &cells->cell[i];
+        squares += residual[i] * residual[i] / (double)cells->count;
         for (int a = 0; a < BR_AXES; a++) {
-            const struct br_joint_cell *next = NULL;
-            for (const struct br_joint_cell *o = cells->cell; o < cells->cell + cells->count; o++)
-                if (o->at[1 - a] == at->at[1 - a] && o->at[a] < at->at[a] &&
-                    (!next || o->at[a] > next->at[a]))
-                    next = o;
-            if (!next)
-                continue;
-            products += residual[at - cells->cell] * residual[next - cells->cell];
-            pairs++;
+            size_t next = cells->count, size = 0;
+            for (size_t j = 0; j < cells->count; j++) {
+                const struct br_joint_cell *o = &cells->cell[j];
+                if (o->at[1 - a] == at->at[1 - a] && o->at[a] < at->at[a] && o->at[a] > size) {
+                    size = o->at[a];
+                    next = j;
+                }
+            }
+            products += next < cells->count ? residual[i] * residual[next] : 0;
+            pairs += next < cells->count;
         }
     }
     return pairs > 0 && squares > 0 ? products / squares / sqrt(pairs) : 0;
 }
 
-/* Residuals with less structure than this are as independent as noise is. */
-static const double waves = 0.7;
-
-/* Residuals below this do not scatter. */
-static const double exact = 1e-4;
+/* Residuals with less structure than this are as independent as noise is. Those below `exact` do
+ * not scatter. */
+static const double waves = 0.7, exact = 1e-4;
 
 /* Cells that share h or k are not independent: the residuals are deterministic. So the intervals
  * come from leaving out one whole line of the grid after the other (delete-a-group jackknife, Efron
@@ -567,7 +583,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
     in_units(s, &c->trial, whole);
     const size_t unknowns = br_joint_unknowns(&c->trial.law, unknown);
     struct br_joint_cells rest = s->used;
-    rest.cell = s->room;
+    rest.cell = s->rest;
     for (size_t size = 1; size < s->used.sizes[axis]; size++) {
         rest.count = 0;
         for (size_t i = 0; i < s->used.count; i++)
@@ -578,7 +594,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
         struct br_joint_trial without = c->trial;
         without.sum = INFINITY;
         if (rest.count > unknowns)
-            br_joint_descend(&rest, 0, &without);
+            br_joint_descend(&rest, &without);
         double value[BR_UNKNOWNS];
         in_units(s, &without, value);
         for (size_t i = 0; i < unknowns; i++) {
@@ -590,7 +606,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
         groups++;
     }
     const double quantiles =
-        gsl_cdf_tdist_Pinv(0.975, groups - 1) / gsl_cdf_tdist_Pinv(0.975, (double)c->freedom);
+        gsl_cdf_tdist_Pinv(0.975, groups - 1) / gsl_cdf_tdist_Pinv(0.975, c->trial.freedom);
     for (size_t i = 0; i < unknowns; i++) {
         const double spread = squares[i] - sum[i] * sum[i] / groups;
         const double deviation = sqrt((groups - 1) / groups * fmax(0, spread)) * quantiles;
@@ -599,47 +615,52 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
     }
 }
 
-static void widen(struct search *s, struct candidate *c, double *room)
+static void widen(struct search *s, struct candidate *c)
 {
-    if (c->widened)
-        return;
+    const struct br_joint_law *law = &c->trial.law;
+    if (c->widened || changes_along(law, 0) || changes_along(law, 1))
+        return; /* the interval reaches from order to order */
     look_at(s, c->window);
-    br_joint_residuals(&s->used, &c->trial, room);
-    const bool bent = c->trial.law.of[0] || c->trial.law.of[1];
+    br_joint_residuals(&s->used, &c->trial, s->residual);
     const bool noise = c->trial.sum > exact * exact * c->trial.weight;
-    if (s->any_model && (noise || !bent) && structure_of(&s->used, room) < waves)
+    if (s->any_model && (noise || !(law->of[0] || law->of[1])) &&
+        structure_of(&s->used, s->residual) < waves)
         return;
     for (int a = 0; a < BR_AXES; a++)
-        if (br_joint_has(c->trial.law.kind, a))
+        if (br_joint_has(law->kind, a))
             widen_along(s, c, a);
     c->widened = true;
 }
 
-static const double most_scatter = 0.3, most_structure = 1;
+/* ---- what one model makes of the errors ---- */
+
+/* A number with its interval by the deviation of an unknown; NaN: there is none. */
+static struct br_estimate estimate(const struct candidate *c, bool has, double value, int unknown)
+{
+    return br_estimate_of(has ? value : (double)NAN, c->deviation[unknown],
+                          (size_t)c->trial.freedom);
+}
 
 /* r with its interval by the slope of the sine, within [-1, 1]. */
-static struct br_estimate correlation(const struct candidate *c, double theta)
+static struct br_estimate correlation(const struct candidate *c)
 {
     static const double fixed[BR_SUMS] = {[BR_SUM_ADDS] = 1, [BR_SUM_SUBTRACTS] = -1};
-    const double r = fixed[c->trial.law.sum];
-    if (c->trial.law.kind != BR_JOINT_BOTH)
-        return (struct br_estimate){NAN, NAN, NAN};
-    if (c->trial.law.sum != BR_SUM_ANY)
+    const struct br_joint_law *law = &c->trial.law;
+    const double theta = c->trial.value[BR_THETA], r = fixed[law->sum];
+    if (law->kind == BR_JOINT_BOTH && law->sum != BR_SUM_ANY)
         return (struct br_estimate){r, r, r};
-    struct br_estimate e =
-        br_estimate_of(sin(theta), fabs(cos(theta)) * c->deviation[BR_THETA], c->freedom);
-    e.low = e.low < -1 ? -1 : e.low; /* NaN stays */
-    e.high = e.high > 1 ? 1 : e.high;
+    struct br_estimate e = estimate(c, law->kind == BR_JOINT_BOTH, theta, BR_THETA);
+    const double half = fabs(cos(theta)) * (e.high - e.value);
+    e.value = sin(e.value);
+    e.low = e.value - half < -1 ? -1 : e.value - half; /* NaN stays */
+    e.high = e.value + half > 1 ? 1 : e.value + half;
     return e;
 }
 
-/* A mean square below this is that of round-off. */
-static const double round_off = 1e-24;
-
-/* What one model makes of the errors, in m and s. */
-static void describe(struct search *s, const struct candidate *c, double *room,
-                     struct br_joint_fit *fit)
+static void describe(struct search *s, const struct candidate *c, struct br_joint_fit *fit)
 {
+    static const double most_scatter = 0.3, most_structure = 1;
+    static const double round_off = 1e-24; /* a mean square below this */
     const struct br_joint_trial *t = &c->trial;
     double mean = 0, total = 0, value[BR_UNKNOWNS];
     in_units(s, t, value);
@@ -648,25 +669,23 @@ static void describe(struct search *s, const struct candidate *c, double *room,
                                  .converged = true,
                                  .points = s->used.count,
                                  .left_out = s->all.count - s->used.count,
-                                 .freedom = c->freedom,
+                                 .freedom = (size_t)t->freedom,
                                  .worst = t->worst,
                                  .misfit =
-                                     round_off < t->sum / t->weight ? sqrt(t->sum / t->weight) : 0,
-                                 .r = correlation(c, value[BR_THETA]),
+                                     t->sum / t->weight > round_off ? sqrt(t->sum / t->weight) : 0,
+                                 .r = correlation(c),
                                  .floor = t->law.floor ? exp(value[BR_LOG_F]) : (double)NAN};
-    br_joint_residuals(&s->used, t, room);
+    br_joint_residuals(&s->used, t, s->residual);
     for (int a = 0; a < BR_AXES; a++) {
         const bool has = br_joint_has(t->law.kind, a);
-        fit->share[a] = br_joint_share(&s->used, a);
-        const double none = has ? 0 : NAN;
-        const struct br_estimate log_c =
-            br_estimate_of(value[LOG_C(a)] + none, c->deviation[LOG_C(a)], c->freedom);
-        fit->c[a] = (struct br_estimate){exp(log_c.value), exp(log_c.low), exp(log_c.high)};
+        struct br_estimate e = estimate(c, has, value[LOG_C(a)], LOG_C(a));
+        fit->c[a] = (struct br_estimate){exp(e.value), exp(e.low), exp(e.high)};
         if (t->law.of[a]) /* its deviation is that of the error at the coarsest size */
             fit->c[a].low = fit->c[a].high = NAN;
-        fit->order[a] = br_estimate_of(value[ORDER(a)] + none, c->deviation[ORDER(a)], c->freedom);
-        fit->low99[a] = fit->order[a].low;
-        fit->high99[a] = fit->order[a].high;
+        e = fit->order[a] = estimate(c, has, value[ORDER(a)], ORDER(a));
+        fit->low99[a] = e.low;
+        fit->high99[a] = e.high;
+        fit->share[a] = br_joint_share(&s->used, a);
         fit->law[a] = has && t->law.of[a] ? br_law_text(t->law.of[a]->law) : NULL;
     }
     for (size_t i = 0; i < s->used.count; i++)
@@ -675,7 +694,7 @@ static void describe(struct search *s, const struct candidate *c, double *room,
         total += pow(s->used.cell[i].log_error - mean, 2);
     fit->r_squared = total > 0 ? 1 - t->sum / total : NAN;
     fit->scatters = s->any_model && fit->misfit <= most_scatter &&
-                    structure_of(&s->used, room) <= most_structure;
+                    structure_of(&s->used, s->residual) <= most_structure;
 }
 
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
@@ -699,84 +718,103 @@ static int by_weight(const void *a, const void *b)
     return (x->log_weight < y->log_weight) - (x->log_weight > y->log_weight);
 }
 
-/* Whether all orders of the model are determined. */
-static bool all_determined(const struct br_joint_fit *fit)
-{
-    bool determined = true;
-    for (int a = 0; a < BR_AXES; a++)
-        determined &= !br_joint_has(fit->kind, a) || br_order_determined(&fit->order[a]);
-    return determined;
-}
-
 static bool one_determined(const struct br_joint_fit *fit)
 {
     return br_order_determined(&fit->order[0]) || br_order_determined(&fit->order[1]);
 }
 
+/* Whether all orders of the model are determined. */
+static bool all_determined(const struct br_joint_fit *fit)
+{
+    return (!br_joint_has(fit->kind, 0) || br_order_determined(&fit->order[0])) &&
+           (!br_joint_has(fit->kind, 1) || br_order_determined(&fit->order[1]));
+}
+
 /* The best model whose orders are determined; else that of both errors, if one of them is. */
-static void take_one(struct search *s, double *room, struct br_joint_fit *fit)
+static void take_one(struct search *s, struct br_joint_fit *fit)
 {
     struct br_joint_fit one;
     for (size_t i = 0; i < s->count && !fit->converged; i++) {
-        describe(s, &s->candidate[i], room, &one);
+        describe(s, &s->candidate[i], &one);
         if (!all_determined(&one))
             continue;
-        widen(s, &s->candidate[i], room);
-        describe(s, &s->candidate[i], room, &one);
+        widen(s, &s->candidate[i]);
+        describe(s, &s->candidate[i], &one);
         *fit = all_determined(&one) ? one : *fit;
     }
     for (size_t i = 0; i < s->count && !br_joint_describes(fit); i++) {
         if (s->candidate[i].trial.law.kind != BR_JOINT_BOTH)
             continue;
-        widen(s, &s->candidate[i], room);
-        describe(s, &s->candidate[i], room, &one);
+        widen(s, &s->candidate[i]);
+        describe(s, &s->candidate[i], &one);
         if (br_joint_describes(&one) && one_determined(&one))
             *fit = one;
         return;
     }
 }
 
-static double scale_of(const struct candidate *c, int axis)
+/* Student's distribution of whole freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). */
+static double student_below(double t, double freedom)
 {
-    return hypot(c->deviation[ORDER(axis)], c->open[axis]);
+    const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
+    const bool odd = fmod(freedom, 2) > 0;
+    double term = odd ? sqrt(square) : 1, sum = 0;
+    for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
+        sum += term;
+        term *= square * (k - 1) / k;
+    }
+    return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
+}
+
+/* The probability that the order of an axis is below this one, by one model. */
+static double below(const struct candidate *c, int axis, double order)
+{
+    const double scale = hypot(c->deviation[ORDER(axis)], c->trial.open[axis]),
+                 off = order - c->trial.value[ORDER(axis)],
+                 coarse = changes_along(&c->trial.law, axis) ? c->trial.law.of[axis]->s : 0;
+    if (!isfinite(scale))
+        return 0.5;
+    double sum = (1 - coarse) * student_below(off / scale, c->trial.freedom);
+    if (coarse > 0)
+        sum += coarse *
+               student_below((off - c->trial.value[ORDER(axis) - BR_ORDER + BR_SHAPE]) / scale,
+                             c->trial.freedom);
+    return sum;
 }
 
 /* The order of an axis below which this share of the mixture is. */
 static double quantile(const struct search *s, int axis, double all, double share)
 {
     double low = -60, high = 60;
-    for (int turn = 0; turn < 60 && high - low > 1e-12; turn++) {
+    while (high - low > 1e-9) {
         const double at = (low + high) / 2;
-        double below = 0;
-        for (size_t i = 0; i < s->count; i++) {
-            const struct candidate *c = &s->candidate[i];
-            const double scale = scale_of(c, axis), off = at - c->trial.value[ORDER(axis)];
-            if (br_joint_has(c->trial.law.kind, axis))
-                below += c->log_weight *
-                         (isfinite(scale) ? gsl_cdf_tdist_P(off / scale, (double)c->freedom) : 0.5);
-        }
-        *(below < share * all ? &low : &high) = at;
+        double sum = 0;
+        for (size_t i = 0; i < s->count; i++)
+            if (br_joint_has(s->candidate[i].trial.law.kind, axis))
+                sum += s->candidate[i].log_weight * below(&s->candidate[i], axis, at);
+        *(sum < share * all ? &low : &high) = at;
     }
     return (low + high) / 2;
 }
 
-/* Models of less weight than this are not kept, and of less than that not widened. */
+/* Models of less weight than this logarithm below the best are not kept, and of less than that not
+ * widened. */
 static const double kept = 8.5, widened = 0.02;
 
 /* The mixture: from logarithms to weights of sum 1. An axis whose error most of the weight does not
  * see has no order. */
-static void take_mixture(struct search *s, double *room, struct br_joint_fit *fit)
+static void take_mixture(struct search *s, struct br_joint_fit *fit)
 {
     double sum = 0, sees[BR_AXES] = {0};
-    for (size_t i = 0; i < s->count; i++) {
-        s->count = s->candidate[i].log_weight < s->best - kept ? i : s->count;
-        sum += i < s->count ? exp(s->candidate[i].log_weight - s->best) : 0;
-    }
-    for (size_t i = 0; i < s->count; i++) {
+    size_t count = 0;
+    while (count < s->count && s->candidate[count].log_weight >= s->best - kept)
+        sum += exp(s->candidate[count++].log_weight - s->best);
+    s->count = count;
+    for (size_t i = 0; i < count; i++) {
         struct candidate *c = &s->candidate[i];
         c->log_weight = exp(c->log_weight - s->best) / sum;
         if (c->log_weight > widened)
-            widen(s, c, room);
+            widen(s, c);
         for (int a = 0; a < BR_AXES; a++)
             sees[a] += br_joint_has(c->trial.law.kind, a) ? c->log_weight : 0;
     }
@@ -784,9 +822,9 @@ static void take_mixture(struct search *s, double *room, struct br_joint_fit *fi
                                     : sees[BR_AXIS_TIME] < 0.5 ? BR_JOINT_SPACE
                                                                : BR_JOINT_BOTH;
     size_t likely = 0;
-    while (likely + 1 < s->count && s->candidate[likely].trial.law.kind != kind)
+    while (likely + 1 < count && s->candidate[likely].trial.law.kind != kind)
         likely++;
-    describe(s, &s->candidate[likely], room, fit);
+    describe(s, &s->candidate[likely], fit);
     for (int a = 0; a < BR_AXES; a++) {
         if (!br_joint_has(fit->kind, a))
             continue;
@@ -816,62 +854,64 @@ static struct br_joint_fit nothing_fitted(size_t points)
 /* Cells that the most probable model leaves out; those of a whole size are too coarse. */
 static void flag_cells(const struct search *s, struct br_observation *observation)
 {
-    const size_t window = s->count ? s->candidate[0].window : 0;
+    const struct window *window = &s->window[s->count ? s->candidate[0].window : 0];
     for (size_t i = 0; i < s->all.count; i++)
-        observation[i].flag = !s->out[window][i]           ? BR_FLAG_NONE
-                              : s->has_far && s->out[1][i] ? BR_FLAG_OUTLIER
-                                                           : BR_FLAG_COARSE;
+        observation[i].flag = !is_out(s, window, i)           ? BR_FLAG_NONE
+                              : s->window[1].far && s->far[i] ? BR_FLAG_OUTLIER
+                                                              : BR_FLAG_COARSE;
 }
 
-/* All memory of a search of so many cells; false: there is none. */
-static bool make_room(struct search *s, size_t count)
+/* All memory of a search; false: there is none. */
+static bool make_room(struct search *s)
 {
+    const size_t count = s->all.count;
     s->all.cell = br_allocate(3 * count + 1, sizeof *s->all.cell);
     s->all.size[0] = br_allocate(4 * count + 4, sizeof *s->all.size[0]);
     s->all.room = br_allocate(br_joint_room(count) + 2 * count, sizeof *s->all.room);
-    s->out[0] = br_allocate(MOST_WINDOWS * count + 1, sizeof *s->out[0]);
+    s->far = br_allocate(count + 1, sizeof *s->far);
     s->candidate = br_allocate(MOST_TRIALS, sizeof *s->candidate);
-    if (!s->all.cell || !s->all.size[0] || !s->all.room || !s->out[0] || !s->candidate)
+    if (!s->all.cell || !s->all.size[0] || !s->all.room || !s->far || !s->candidate)
         return false;
-    for (size_t i = 1; i < MOST_WINDOWS; i++)
-        s->out[i] = s->out[0] + i * count;
     s->all.size[1] = s->all.size[0] + 2 * count + 2;
-    s->used = s->all;
-    s->used.cell = s->all.cell + count;
-    s->room = s->used.cell + count;
+    s->residual = s->all.room + br_joint_room(count);
     return true;
+}
+
+static void fit_all(struct search *s, struct br_observation *observation, struct br_joint_fit *fit)
+{
+    take_cells(s, observation);
+    take_options(s);
+    s->used = s->all;
+    s->used.cell = s->all.cell + s->all.count;
+    s->rest = s->used.cell + s->all.count;
+    search_all(s);
+    qsort(s->candidate, s->count, sizeof *s->candidate, by_weight);
+    while (s->count && !isfinite(s->candidate[s->count - 1].log_weight))
+        s->count--;
+    if (s->count && s->any_model)
+        take_mixture(s, fit);
+    else
+        take_one(s, fit);
+    if (!one_determined(fit))
+        *fit = nothing_fitted(s->all.count);
+    flag_cells(s, observation);
 }
 
 enum br_status br_joint_fit_solve(struct br_observation *observation, size_t count, bool any_model,
                                   const struct br_observer *observer, struct br_joint_fit *fit,
                                   struct br_error *err)
 {
-    struct search s = {.any_model = any_model, .best = -INFINITY};
+    struct search s = {.any_model = any_model,
+                       .best = -INFINITY,
+                       .all = {.count = count, .priors = any_model, .observer = observer}};
     *fit = nothing_fitted(count);
-    s.all.count = count;
-    s.all.priors = any_model;
-    s.all.observer = observer;
-    enum br_status status = make_room(&s, count) ? BR_OK : br_no_memory(err, "the fits");
-    if (!status && count > 0) {
-        double *room = s.all.room + br_joint_room(count);
-        take_cells(&s, observation, room);
-        struct br_joint_cell *const own = s.used.cell;
-        s.used = s.all;
-        s.used.cell = own;
-        search_all(&s, room);
-        qsort(s.candidate, s.count, sizeof *s.candidate, by_weight);
-        if (s.count && any_model)
-            take_mixture(&s, room, fit);
-        else
-            take_one(&s, room, fit);
-        if (!one_determined(fit))
-            *fit = nothing_fitted(count);
-        flag_cells(&s, observation);
-    }
+    const enum br_status status = make_room(&s) ? BR_OK : br_no_memory(err, "the fits");
+    if (!status && count > 0)
+        fit_all(&s, observation, fit);
     free(s.all.cell);
     free(s.all.size[0]);
     free(s.all.room);
-    free(s.out[0]);
+    free(s.far);
     free(s.candidate);
     if (!status && br_observer_stops(observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");

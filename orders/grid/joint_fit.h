@@ -15,9 +15,9 @@
  * Where the cells do not show one of the two errors, the model without it is chosen (by the
  * corrected Akaike criterion); the numbers of that error are NaN. The residuals of the model are
  * deterministic, not noise: so the intervals come from leaving out whole rows and columns of the
- * grid (joint_fit.c). The numbers of a stranger may also have a constant floor or next terms where
- * the cells show them; an interval then reaches over those of all models that the cells do not rule
- * out. */
+ * grid (joint_fit.c). The numbers of a stranger may also have a constant floor, next terms, and an
+ * order that changes along an axis, where the cells show them; an interval then reaches over those
+ * of all models that the cells do not rule out, and from one order to the other. */
 enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
 bool br_joint_has(enum br_joint_kind kind, int axis); /* whether it has an error of this axis */
 

@@ -6,17 +6,18 @@
 
 #define OF(axis, what) (BR_OF_AXIS * (axis) + (what))
 
-size_t br_joint_room(size_t count)
+static bool has_unknown(const struct br_family *f, int unknown)
 {
-    return (count + 2 * BR_UNKNOWNS) * (3 * BR_UNKNOWNS + 3);
+    return unknown <= BR_ORDER ||
+           (f && (unknown == BR_SHAPE || (f->law == BR_LAW_KINK && f->low < f->high)));
 }
 
 size_t br_joint_unknowns(const struct br_joint_law *law, int unknown[BR_UNKNOWNS])
 {
     size_t count = 0;
     for (int a = 0; a < BR_AXES; a++)
-        for (int u = BR_LOG_C; u < BR_OF_AXIS && br_joint_has(law->kind, a); u++)
-            if (u != BR_SHAPE || law->of[a])
+        for (int u = 0; u < BR_OF_AXIS && br_joint_has(law->kind, a); u++)
+            if (has_unknown(law->of[a], u))
                 unknown[count++] = OF(a, u);
     if (law->kind == BR_JOINT_BOTH && law->sum == BR_SUM_ANY)
         unknown[count++] = BR_THETA;
@@ -27,89 +28,98 @@ size_t br_joint_unknowns(const struct br_joint_law *law, int unknown[BR_UNKNOWNS
 
 /* ---- the model ---- */
 
-/* The logarithm of a correction at x. A next term a z^s of either sign is 1 + (exp(shape) - 1) x^s;
- * of all other laws the shape is the logarithm of the parameter. */
-static double bend(const struct br_family *f, double shape, double x, double finest)
+/* The logarithm of the correction by a law at a size, v: the unknowns of the axis. */
+static double bend(const struct br_family *f, const double v[BR_OF_AXIS], double log_x,
+                   double log_finest)
 {
+    const double log_z = log_x - log_finest;
     if (f->law == BR_LAW_NEXT)
-        return log1p(expm1(shape) * pow(x, f->s));
-    const struct br_law_place at = {log(x / finest), pow(x / finest, f->s), 1};
-    return br_law_bend(f, exp(shape), &at).correction;
-}
-
-/* The same, 0 at the coarsest size, so that the constant is that of the error there. */
-static double correction(const struct br_family *f, double shape, double x, double finest)
-{
-    return bend(f, shape, x, finest) - bend(f, shape, 1, finest);
-}
-
-double br_joint_bend(const struct br_joint_cells *cells, const struct br_joint_trial *trial,
-                     int axis)
-{
-    const struct br_family *f = trial->law.of[axis];
-    return f ? bend(f, trial->value[OF(axis, BR_SHAPE)], 1, cells->finest[axis]) : 0;
+        return log1p(expm1(v[BR_SHAPE]) * exp(f->s * log_x));
+    if (f->law == BR_LAW_KINK)
+        return v[BR_SHAPE] * fmax(0, log_x - v[BR_PLACE]);
+    return br_law_bend(f, exp(v[BR_SHAPE]), &(struct br_law_place){log_z, exp(f->s * log_z), 1})
+        .correction;
 }
 
 /* The errors of one axis at all sizes, with their rates. */
 static void fill_axis(const struct br_joint_cells *cells, const struct br_joint_law *law,
-                      const double v[BR_UNKNOWNS], int axis)
+                      const double value[BR_UNKNOWNS], int axis)
 {
     static const double step = 1e-4;
     const struct br_family *f = law->of[axis];
-    for (size_t i = 0; i < cells->sizes[axis]; i++) {
-        struct br_joint_size *s = &cells->size[axis][i];
-        const double shape = v[OF(axis, BR_SHAPE)], finest = cells->finest[axis];
+    const double *v = &value[OF(axis, 0)], finest = cells->log_finest[axis];
+    const double coarsest = f ? bend(f, v, 0, finest) : 0;
+    double up[BR_OF_AXIS], down[BR_OF_AXIS];
+    for (struct br_joint_size *s = cells->size[axis]; s < cells->size[axis] + cells->sizes[axis];
+         s++) {
         const bool none = !br_joint_has(law->kind, axis) || s->x == 0;
-        const double bend = none || !f ? 0 : correction(f, shape, s->x, finest);
-        s->error = none ? 0 : exp(v[OF(axis, BR_LOG_C)] + v[OF(axis, BR_ORDER)] * s->log_x + bend);
+        const double more = none || !f ? 0 : bend(f, v, s->log_x, finest) - coarsest;
+        s->error = none ? 0 : exp(v[BR_LOG_C] + v[BR_ORDER] * s->log_x + more);
         s->rate[BR_LOG_C] = s->error;
         s->rate[BR_ORDER] = none ? 0 : s->error * s->log_x;
-        s->rate[BR_SHAPE] = none || !f ? 0
-                                       : s->error *
-                                             (correction(f, shape + step, s->x, finest) -
-                                              correction(f, shape - step, s->x, finest)) /
-                                             (2 * step);
+        for (int u = BR_SHAPE; u < BR_OF_AXIS; u++) {
+            s->rate[u] = 0;
+            if (none || !f || !has_unknown(f, u))
+                continue;
+            memcpy(up, v, sizeof up);
+            memcpy(down, v, sizeof down);
+            up[u] += step;
+            down[u] -= step;
+            s->rate[u] = s->error / (2 * step) *
+                         (bend(f, up, s->log_x, finest) - bend(f, up, 0, finest) -
+                          bend(f, down, s->log_x, finest) + bend(f, down, 0, finest));
+        }
     }
-}
-
-static double correlation(const struct br_joint_law *law, const double v[BR_UNKNOWNS])
-{
-    static const double fixed[BR_SUMS] = {[BR_SUM_ADDS] = 1, [BR_SUM_SUBTRACTS] = -1};
-    return law->sum == BR_SUM_ANY ? sin(v[BR_THETA]) : fixed[law->sum];
 }
 
 /* An order is above zero; beside another error, or with a law, above that of a floor. No error
  * falls by more than this. */
 static const double most_order = 30;
 
-static bool allowed(const struct br_joint_law *law, const double v[BR_UNKNOWNS])
+static bool allowed(const struct br_joint_law *law, const double value[BR_UNKNOWNS])
 {
     const bool alone = law->kind != BR_JOINT_BOTH && !law->of[0] && !law->of[1] && !law->floor;
     const double least = alone ? 0 : br_priors.least_order;
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_family *f = law->of[a];
-        const double order = v[OF(a, BR_ORDER)], shape = v[OF(a, BR_SHAPE)];
+        const double *v = &value[OF(a, 0)], shape = f ? v[BR_SHAPE] : 0;
         if (!br_joint_has(law->kind, a))
             continue;
-        if (!(order > least && order < most_order) ||
-            (f && f->law != BR_LAW_NEXT && !(shape > log(f->low) && shape < log(f->high))) ||
-            (f && !(fabs(shape) < 12)))
+        if (!(v[BR_ORDER] > least && v[BR_ORDER] < most_order && fabs(shape) < 12))
+            return false;
+        if (f && f->law == BR_LAW_KINK   ? !(v[BR_ORDER] + shape > least)
+            : f && f->law != BR_LAW_NEXT ? !(shape > log(f->low) && shape < log(f->high))
+                                         : false)
             return false;
     }
     return true;
 }
 
+/* How the errors of both axes make one: r, its rate by theta, and the floor. */
+struct mixing {
+    double r, rate, floor;
+    bool adds; /* a floor below 0: an offset */
+};
+
+static struct mixing mixing_of(const struct br_joint_law *law, const double v[BR_UNKNOWNS])
+{
+    static const double fixed[BR_SUMS] = {[BR_SUM_ADDS] = 1, [BR_SUM_SUBTRACTS] = -1};
+    const bool any = law->sum == BR_SUM_ANY;
+    const double level = law->floor ? exp(v[BR_LOG_F]) : 0;
+    return (struct mixing){.r = any ? sin(v[BR_THETA]) : fixed[law->sum],
+                           .rate = any ? cos(v[BR_THETA]) : 0,
+                           .floor = law->floor && law->floor->law == BR_LAW_OFFSET ? -level : level,
+                           .adds = law->floor && law->floor->law != BR_LAW_FLOOR_SQUARES};
+}
+
 /* The residual log(model/error) of a cell, and its rates (NULL: not needed): with m^2 = a^2 + 2 r a
  * b + b^2, m dm = (a + r b) da + (b + r a) db + a b dr, and with a floor f, m + f or sqrt(m^2 +
  * f^2) in place of m. */
-static double residual_of(const struct br_joint_cells *cells, const struct br_joint_law *law,
-                          const double v[BR_UNKNOWNS], const struct br_joint_cell *c, double *rate)
+static double residual_of(const struct br_joint_cells *cells, const struct mixing *mix,
+                          const struct br_joint_cell *c, double *rate)
 {
     static const double least = 1e-300;
-    const double r = correlation(law, v);
-    const double level = law->floor ? exp(v[BR_LOG_F]) : 0;
-    const bool offset = law->floor && law->floor->law == BR_LAW_OFFSET;
-    const bool adds = offset || (law->floor && law->floor->law == BR_LAW_FLOOR);
+    const double r = mix->r, level = mix->floor;
     const struct br_joint_size *at[BR_AXES], *ref[BR_AXES];
     double e[BR_AXES];
     for (int a = 0; a < BR_AXES; a++) {
@@ -119,14 +129,16 @@ static double residual_of(const struct br_joint_cells *cells, const struct br_jo
     }
     const double square_m = e[0] * e[0] + 2 * r * e[0] * e[1] + e[1] * e[1];
     const double m = sqrt(square_m < 0 ? 0 : square_m); /* NaN stays */
-    const double all = adds ? m + (offset ? -level : level) : hypot(m, level);
-    const double square = adds ? m * all : all * all;
-    for (int a = 0; a < BR_AXES && rate; a++)
-        for (int u = 0; u < BR_OF_AXIS; u++)
-            rate[OF(a, u)] = (e[a] + r * e[1 - a]) / square * (at[a]->rate[u] - ref[a]->rate[u]);
+    const double all = mix->adds ? m + level : level != 0 ? sqrt(m * m + level * level) : m;
+    const double square = mix->adds ? m * all : all * all;
     if (rate) {
-        rate[BR_THETA] = e[0] * e[1] / square * cos(v[BR_THETA]);
-        rate[BR_LOG_F] = adds ? (offset ? -level : level) / all : level * level / square;
+        for (int a = 0; a < BR_AXES; a++) {
+            const double factor = (e[a] + r * e[1 - a]) / square;
+            for (int u = 0; u < BR_OF_AXIS; u++)
+                rate[OF(a, u)] = factor * (at[a]->rate[u] - ref[a]->rate[u]);
+        }
+        rate[BR_THETA] = e[0] * e[1] / square * mix->rate;
+        rate[BR_LOG_F] = mix->adds ? level / all : level * level / square;
     }
     return log(fabs(all) < least ? least : fabs(all)) - c->log_error;
 }
@@ -134,23 +146,11 @@ static double residual_of(const struct br_joint_cells *cells, const struct br_jo
 void br_joint_residuals(struct br_joint_cells *cells, const struct br_joint_trial *trial,
                         double *residual)
 {
+    const struct mixing mix = mixing_of(&trial->law, trial->value);
     for (int a = 0; a < BR_AXES; a++)
         fill_axis(cells, &trial->law, trial->value, a);
     for (size_t i = 0; i < cells->count; i++)
-        residual[i] = residual_of(cells, &trial->law, trial->value, &cells->cell[i], NULL);
-}
-
-double br_joint_change(const struct br_joint_cells *cells, const struct br_joint_trial *trial,
-                       int axis)
-{
-    double most = 0;
-    const double shape = trial->value[OF(axis, BR_SHAPE)];
-    for (size_t i = 1; i < cells->sizes[axis] && trial->law.of[axis]; i++) {
-        const double off = fabs(
-            correction(trial->law.of[axis], shape, cells->size[axis][i].x, cells->finest[axis]));
-        most = fmax(most, off / (1 + off));
-    }
-    return most;
+        residual[i] = residual_of(cells, &mix, &cells->cell[i], NULL);
 }
 
 double br_joint_share(const struct br_joint_cells *cells, int axis)
@@ -176,38 +176,46 @@ struct normal {
     double mean, deviation;
 };
 
+/* The normal distribution that is as wide as an even one. */
+static struct normal even(double low, double high)
+{
+    return (struct normal){(low + high) / 2, (high - low) / sqrt(12)};
+}
+
 static struct normal prior_of(const struct br_joint_cells *cells, const struct br_joint_law *law,
                               int unknown)
 {
+    const struct br_family *f = unknown < BR_THETA ? law->of[unknown / BR_OF_AXIS] : NULL;
     if (unknown == BR_THETA)
         return (struct normal){0, 1};
     if (unknown == BR_LOG_F)
         return (struct normal){cells->lowest - 1.5, 1.5};
-    if (unknown % BR_OF_AXIS == BR_LOG_C)
+    switch (unknown % BR_OF_AXIS) {
+    case BR_LOG_C:
         return (struct normal){0, 5};
-    if (unknown % BR_OF_AXIS == BR_ORDER)
+    case BR_ORDER:
         return (struct normal){2, 2};
-    const struct br_family *f = law->of[unknown / BR_OF_AXIS];
-    return f->law == BR_LAW_NEXT
-               ? (struct normal){0, 1.5}
-               : (struct normal){log(f->low * f->high) / 2, log(f->high / f->low) / sqrt(12)};
+    case BR_PLACE:
+        return even(f->low, f->high);
+    default:
+        return f->law == BR_LAW_NEXT || f->law == BR_LAW_KINK ? (struct normal){0, 1.5}
+                                                              : even(log(f->low), log(f->high));
+    }
 }
 
 double br_joint_log_prior(const struct br_joint_cells *cells, const struct br_joint_trial *trial)
 {
-    static const double usual_next = 0.3, of_sum[BR_SUMS] = {0.4, 0.3, 0.1, 0.2};
+    static const double usual_next = 0.3, of_sum[BR_SUMS] = {0.4, 0.3, 0.1};
     const struct br_joint_law *law = &trial->law;
     int unknown[BR_UNKNOWNS];
     double sum = law->kind == BR_JOINT_BOTH ? log(of_sum[law->sum] * 2) : 0;
     for (size_t i = br_joint_unknowns(law, unknown); i-- > 0;) {
         const struct normal p = prior_of(cells, law, unknown[i]);
-        const double at = (trial->value[unknown[i]] - p.mean) / p.deviation;
-        const struct br_family *f = unknown[i] < BR_THETA && unknown[i] % BR_OF_AXIS == BR_SHAPE
-                                        ? law->of[unknown[i] / BR_OF_AXIS]
-                                        : NULL;
+        const double value = trial->value[unknown[i]], at = (value - p.mean) / p.deviation;
+        const bool is_shape = unknown[i] < BR_THETA && unknown[i] % BR_OF_AXIS == BR_SHAPE;
+        const struct br_family *f = is_shape ? law->of[unknown[i] / BR_OF_AXIS] : NULL;
         if (f && f->law == BR_LAW_NEXT) /* heavier tails, and three rows of the table in one */
-            sum += log(2.25 * f->prior / M_PI / usual_next) -
-                   log1p(pow(trial->value[unknown[i]] / usual_next, 2));
+            sum += log(2.25 * f->prior / M_PI / usual_next) - log1p(pow(value / usual_next, 2));
         else
             sum += -at * at / 2 - log(p.deviation * sqrt(2 * M_PI)) + (f ? log(f->prior) : 0);
     }
@@ -218,181 +226,263 @@ double br_joint_log_prior(const struct br_joint_cells *cells, const struct br_jo
 
 /* ---- the fit, by Levenberg and Marquardt ---- */
 
-struct system {
-    double *residual, *rates;             /* count; count * unknowns */
-    double *other_residual, *other_rates; /* of the values before */
-    double *a, *b;                        /* with added rows */
+/* The equations of one step: a column for each unknown and one for the right side, `stride` apart;
+ * a row for each cell, one for the prior of each unknown, and one for its damping. */
+struct equations {
     int unknown[BR_UNKNOWNS];
-    size_t unknowns;
-    double noise; /* of residuals, beside which priors weigh; 0: there are no priors */
-    double robust;
+    size_t unknowns, cells, stride;
+    double *now, *next, *work;
+    double noise;  /* of residuals, beside which priors weigh; 0: there are no priors */
+    double robust; /* residuals above this count less; 0: all count */
 };
 
-/* The sum to be made small, at these values; infinite: they are not allowed. */
-static double evaluate(struct br_joint_cells *cells, const struct br_joint_law *law,
-                       struct system *s, const double v[BR_UNKNOWNS])
+size_t br_joint_room(size_t count)
 {
-    double sum = 0, all[BR_UNKNOWNS];
+    return 3 * (count + 2 * BR_UNKNOWNS) * (BR_UNKNOWNS + 1);
+}
+
+static struct equations equations_of(const struct br_joint_cells *cells,
+                                     const struct br_joint_law *law)
+{
+    struct equations e = {.cells = cells->count, .stride = cells->count + 2 * BR_UNKNOWNS};
+    e.unknowns = br_joint_unknowns(law, e.unknown);
+    e.now = cells->room;
+    e.next = e.now + e.stride * (BR_UNKNOWNS + 1);
+    e.work = e.next + e.stride * (BR_UNKNOWNS + 1);
+    return e;
+}
+
+/* Sets the equations at these values. Returns the sum to be made small; infinite: they are not
+ * allowed. */
+static double evaluate(struct br_joint_cells *cells, const struct br_joint_law *law,
+                       const struct equations *e, const double v[BR_UNKNOWNS], double *a)
+{
+    const size_t n = e->unknowns;
+    double sum = 0, rate[BR_UNKNOWNS], *b = a + n * e->stride;
     if (!allowed(law, v) || br_observer_stops(cells->observer))
         return INFINITY;
-    for (int a = 0; a < BR_AXES; a++)
-        fill_axis(cells, law, v, a);
-    for (size_t i = 0; i < cells->count; i++) {
+    const struct mixing mix = mixing_of(law, v);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        fill_axis(cells, law, v, axis);
+    for (size_t i = 0; i < e->cells; i++) {
         const struct br_joint_cell *c = &cells->cell[i];
-        double r = residual_of(cells, law, v, c, all), scale = sqrt(c->weight);
-        if (s->robust > 0) {
-            const double off = r / s->robust;
-            sum += c->weight * s->robust * s->robust * log1p(off * off);
-            scale /= sqrt(1 + off * off);
-        } else
-            sum += c->weight * r * r;
-        s->residual[i] = scale * r;
-        for (size_t j = 0; j < s->unknowns; j++)
-            s->rates[i * s->unknowns + j] = scale * all[s->unknown[j]];
+        const double r = residual_of(cells, &mix, c, rate);
+        const double off = e->robust > 0 ? pow(r / e->robust, 2) : 0;
+        const double scale = sqrt(c->weight / (1 + off));
+        sum += c->weight * (e->robust > 0 ? e->robust * e->robust * log1p(off) : r * r);
+        b[i] = -scale * r;
+        for (size_t j = 0; j < n; j++)
+            a[j * e->stride + i] = scale * rate[e->unknown[j]];
     }
-    for (size_t j = 0; j < s->unknowns && s->noise > 0; j++) {
-        const struct normal p = prior_of(cells, law, s->unknown[j]);
-        sum += pow(s->noise * (v[s->unknown[j]] - p.mean) / p.deviation, 2);
+    for (size_t j = 0; j < n; j++) {
+        const struct normal p = prior_of(cells, law, e->unknown[j]);
+        memset(&a[j * e->stride + e->cells], 0, n * sizeof *a);
+        a[j * e->stride + e->cells + j] = e->noise / p.deviation;
+        b[e->cells + j] = e->noise * (p.mean - v[e->unknown[j]]) / p.deviation;
+        sum += b[e->cells + j] * b[e->cells + j];
     }
     return isfinite(sum) ? sum : INFINITY;
 }
 
-/* The system of one step, with priors and damping as added rows. Returns the number of rows. */
-static size_t make_system(const struct br_joint_cells *cells, const struct br_joint_law *law,
-                          struct system *s, const double v[BR_UNKNOWNS],
-                          const double scale[BR_UNKNOWNS], double damping)
+/* In four sums, which need not wait for each other. */
+static double dot(const double *a, const double *b, size_t n)
 {
-    const size_t n = s->unknowns;
-    size_t rows = cells->count;
-    memcpy(s->a, s->rates, rows * n * sizeof *s->a);
-    for (size_t i = 0; i < rows; i++)
-        s->b[i] = -s->residual[i];
-    for (size_t j = 0; j < n; j++) {
-        const struct normal p = prior_of(cells, law, s->unknown[j]);
-        const double row[] = {s->noise / p.deviation, sqrt(damping) * scale[j]},
-                     off[] = {row[0] * (p.mean - v[s->unknown[j]]), 0};
-        for (int i = 0; i < 2; i++) {
-            if (!(row[i] > 0))
-                continue;
-            memset(&s->a[rows * n], 0, n * sizeof *s->a);
-            s->a[rows * n + j] = row[i];
-            s->b[rows++] = off[i];
-        }
-    }
-    return rows;
+    double sum[4] = {0};
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (size_t j = 0; j < 4; j++)
+            sum[j] += a[i + j] * b[i + j];
+    for (; i < n; i++)
+        sum[0] += a[i] * b[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static const double least_pivot = 1e-14;
-
-static void swap(double **a, double **b)
+/* The step x that makes the sum least, held back by rows of damping times the scale of each
+ * unknown; r: the triangle. By modified Gram-Schmidt, with the right side as one more column
+ * (Bjorck, BIT 7, 1-21, 1967). No library: its rounding would be that of the installed BLAS. */
+static void solve(const struct equations *e, const double scale[BR_UNKNOWNS], double damping,
+                  double r[BR_UNKNOWNS][BR_UNKNOWNS + 1], double x[BR_UNKNOWNS])
 {
-    double *const other = *a;
-    *a = *b;
-    *b = other;
+    const size_t n = e->unknowns, rows = e->cells + 2 * n;
+    memcpy(e->work, e->now, (n + 1) * e->stride * sizeof *e->work);
+    for (size_t j = 0; j <= n; j++) {
+        double *held = e->work + j * e->stride + rows - n;
+        memset(held, 0, n * sizeof *held);
+        if (j < n)
+            held[j] = sqrt(damping) * scale[j];
+    }
+    for (size_t k = 0; k < n; k++) {
+        const double *q = e->work + k * e->stride, square = dot(q, q, rows);
+        r[k][k] = sqrt(square);
+        for (size_t j = k + 1; j <= n; j++) {
+            double *of = e->work + j * e->stride;
+            const double share = square > 0 ? dot(q, of, rows) / square : 0;
+            r[k][j] = share * r[k][k];
+            for (size_t i = 0; i < rows; i++)
+                of[i] -= share * q[i];
+        }
+    }
+    for (size_t k = n; k-- > 0;) {
+        x[k] = r[k][n];
+        for (size_t j = k + 1; j < n; j++)
+            x[k] -= r[k][j] * x[j];
+        x[k] = r[k][k] > 0 ? x[k] / r[k][k] : 0;
+    }
 }
 
 /* From the values of a trial down to a minimum, until a step gains less than this share of the
  * variance of a residual. */
-static void minimise(struct br_joint_cells *cells, struct system *s, struct br_joint_trial *t,
+static void minimise(struct br_joint_cells *cells, struct equations *e, struct br_joint_trial *t,
                      double share)
 {
-    double step[BR_UNKNOWNS], scale[BR_UNKNOWNS] = {0}, damping = 1e-3;
-    double now = evaluate(cells, &t->law, s, t->value);
-    const size_t n = s->unknowns;
-    const double enough = share / (double)cells->count;
+    double r[BR_UNKNOWNS][BR_UNKNOWNS + 1], step[BR_UNKNOWNS], scale[BR_UNKNOWNS] = {0};
+    double damping = 1e-3, now = evaluate(cells, &t->law, e, t->value, e->now);
+    const size_t n = e->unknowns;
     for (int turn = 0, calm = 0; turn < 200 && isfinite(now) && calm < 2 && damping < 1e10;
          turn++) {
         double next[BR_UNKNOWNS], most = 0;
         for (size_t j = 0; j < n; j++) {
-            double norm = 0;
-            for (size_t i = 0; i < cells->count; i++)
-                norm += s->rates[i * n + j] * s->rates[i * n + j];
-            scale[j] = fmax(scale[j], sqrt(norm));
+            const double *of = e->now + j * e->stride;
+            scale[j] = fmax(scale[j], sqrt(dot(of, of, e->cells)));
         }
-        const size_t rows = make_system(cells, &t->law, s, t->value, scale, damping);
-        br_least_squares_solve(s->a, s->b, rows, n, least_pivot, step, t->covariance);
+        solve(e, scale, damping, r, step);
         memcpy(next, t->value, sizeof next);
         for (size_t j = 0; j < n; j++) {
-            next[s->unknown[j]] += step[j];
+            next[e->unknown[j]] += step[j];
             most = fmax(most, fabs(step[j]));
         }
-        swap(&s->rates, &s->other_rates);
-        swap(&s->residual, &s->other_residual);
-        const double then = evaluate(cells, &t->law, s, next);
+        for (int a = 0; a < BR_AXES; a++) {
+            double *place = &next[OF(a, BR_PLACE)];
+            if (t->law.of[a] && t->law.of[a]->law == BR_LAW_KINK)
+                *place = fmin(fmax(*place, t->law.of[a]->low), t->law.of[a]->high);
+        }
+        const double then = evaluate(cells, &t->law, e, next, e->next);
         if (then <= now) {
-            calm = most < 1e-9 || now - then <= enough * now ? calm + 1 : 0;
+            double *const before = e->now;
+            e->now = e->next;
+            e->next = before;
+            calm = most < 1e-9 || now - then <= share / (double)e->cells * now ? calm + 1 : 0;
             memcpy(t->value, next, sizeof next);
             now = then;
             damping = damping > 1e-14 ? damping / 10 : damping;
-        } else {
-            swap(&s->rates, &s->other_rates);
-            swap(&s->residual, &s->other_residual);
-            if (most < 1e-10)
-                break;
+        } else if (most < 1e-10)
+            break;
+        else
             damping *= 10;
-        }
     }
     t->sum = now;
 }
 
-/* The sum without priors, the covariance, and what printed digits leave open of the orders: cells
- * of one size may be rounded the same way. */
-static void finish(struct br_joint_cells *cells, struct system *s, struct br_joint_trial *t)
+void br_joint_approach(struct br_joint_cells *cells, double robust, struct br_joint_trial *t)
 {
-    const size_t n = s->unknowns;
-    if (!isfinite(t->sum) || !isfinite(evaluate(cells, &t->law, s, t->value)))
-        return;
-    const size_t rows = make_system(cells, &t->law, s, t->value, (double[BR_UNKNOWNS]){0}, 0);
-    br_least_squares_solve(s->a, NULL, rows, n, 1e-12, NULL, t->covariance);
-    t->sum = t->worst = t->weight = 0;
-    for (size_t i = 0; i < cells->count; i++) {
-        t->sum += s->residual[i] * s->residual[i];
-        t->worst = fmax(t->worst, fabs(s->residual[i]));
-        t->weight += cells->cell[i].weight;
-    }
-    for (int a = 0; a < BR_AXES; a++) {
-        size_t order = n;
-        double square = 0, xx = 0, x = 0, one = 0;
-        for (size_t j = 0; j < n; j++)
-            order = s->unknown[j] == OF(a, BR_ORDER) ? j : order;
-        for (size_t size = 1; size < cells->sizes[a] && order < n; size++) {
-            double sum = 0;
-            for (size_t i = 0; i < cells->count; i++) {
-                double share = 0;
-                for (size_t j = 0; j < n && cells->cell[i].at[a] == size; j++)
-                    share += t->covariance[order * n + j] * s->rates[i * n + j];
-                sum += fabs(share) * sqrt(cells->cell[i].weight) * cells->cell[i].rounded;
-            }
-            square += sum * sum;
-        }
-        t->rounded[a] = sqrt(square);
-        for (size_t i = 0; i < cells->count && order < n; i++) {
-            const double *rate = &s->rates[i * n + order];
-            xx += rate[0] * rate[0], x += rate[0] * rate[-1], one += rate[-1] * rate[-1];
-        }
-        t->slope[a] = sqrt(1 / (xx - x * x / one));
-    }
+    struct equations e = equations_of(cells, &t->law);
+    e.robust = robust;
+    e.noise = cells->priors ? 1e-6 : 0;
+    minimise(cells, &e, t, cells->priors ? 0.1 : 1e-12);
 }
 
-void br_joint_descend(struct br_joint_cells *cells, double robust, struct br_joint_trial *t)
+/* What a known deviation adds to the scale of Student's distribution, so that it widens the 95 %
+ * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
+static double of_known(double freedom)
 {
-    struct system s = {.robust = robust};
-    const size_t most = cells->count + 2 * BR_UNKNOWNS;
-    s.residual = cells->room;
-    s.other_residual = s.residual + most;
-    s.b = s.other_residual + most;
-    s.rates = s.b + most;
-    s.other_rates = s.rates + most * BR_UNKNOWNS;
-    s.a = s.other_rates + most * BR_UNKNOWNS;
-    s.unknowns = br_joint_unknowns(&t->law, s.unknown);
-    s.noise = cells->priors ? 1e-6 : 0;
-    minimise(cells, &s, t, cells->priors ? 0.1 : 1e-12);
-    if (cells->priors && isfinite(t->sum)) { /* once more, beside the noise that is seen */
-        s.noise = fmin(0.3, sqrt(t->sum / (double)cells->count) + 1e-8);
-        minimise(cells, &s, t, 1e-3);
+    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
+}
+
+/* How large the corrections of an axis are, 0 to 1. */
+static double change_of(const struct br_joint_cells *cells, const struct br_joint_trial *t,
+                        int axis)
+{
+    const struct br_family *f = t->law.of[axis];
+    double most = 0;
+    for (size_t i = 1; i < cells->sizes[axis] && f && f->law != BR_LAW_KINK; i++) {
+        const double off = fabs(
+            bend(f, &t->value[OF(axis, 0)], cells->size[axis][i].log_x, cells->log_finest[axis]) -
+            t->bend[axis]);
+        most = fmax(most, off / (1 + off));
     }
-    if (robust == 0)
-        finish(cells, &s, t);
+    return most;
+}
+
+/* The standard deviation of an unknown by printed digits: cells of one size may be rounded the same
+ * way. share: of each residual in it. */
+static double by_digits(const struct br_joint_cells *cells, int axis, const double *share)
+{
+    double square = 0;
+    for (size_t size = 1; size < cells->sizes[axis]; size++) {
+        double sum = 0;
+        for (size_t i = 0; i < cells->count; i++)
+            if (cells->cell[i].at[axis] == size)
+                sum += fabs(share[i]) * sqrt(cells->cell[i].weight) * cells->cell[i].rounded;
+        square += sum * sum;
+    }
+    return sqrt(square);
+}
+
+/* Sets what else is not known of the order of an axis; order: of the unknowns. */
+static void set_open(const struct br_joint_cells *cells, const struct equations *e, size_t order,
+                     int axis, struct br_joint_trial *t)
+{
+    const size_t m = e->cells;
+    const double *x = e->now + order * e->stride, *one = x - e->stride; /* log C is before it */
+    double *share = e->work;
+    memset(share, 0, m * sizeof *share);
+    for (size_t j = 0; j < e->unknowns; j++)
+        for (size_t i = 0; i < m; i++)
+            share[i] += t->covariance[order][j] * e->now[j * e->stride + i];
+    const double along = dot(x, one, m),
+                 slope = sqrt(1 / (dot(x, x, m) - along * along / dot(one, one, m)));
+    const double change = change_of(cells, t, axis);
+    t->open[axis] = hypot(slope * (br_priors.sure + br_priors.truncation * change +
+                                   br_priors.next_term * change * change),
+                          of_known(t->freedom) * by_digits(cells, axis, share));
+}
+
+/* The sum without priors, the covariance, and what follows from it. */
+static void finish(struct br_joint_cells *cells, struct equations *e, struct br_joint_trial *t)
+{
+    const size_t n = e->unknowns;
+    double r[BR_UNKNOWNS][BR_UNKNOWNS + 1], inverse[BR_UNKNOWNS][BR_UNKNOWNS] = {{0}},
+                                            step[BR_UNKNOWNS] = {0};
+    if (!isfinite(t->sum) || !isfinite(evaluate(cells, &t->law, e, t->value, e->now)))
+        return;
+    const double *b = e->now + n * e->stride;
+    t->sum = t->worst = t->weight = t->log_determinant = 0;
+    for (size_t i = 0; i < e->cells; i++) {
+        t->sum += b[i] * b[i];
+        t->worst = fmax(t->worst, fabs(b[i]));
+        t->weight += cells->cell[i].weight;
+    }
+    t->freedom = fmax(1, floor(t->weight - (double)n + 1e-9));
+    solve(e, step, 0, r, step);
+    for (size_t k = 0; k < n; k++) {
+        t->log_determinant -= 2 * log(r[k][k]);
+        for (size_t i = k + 1; i-- > 0;) { /* R inverse = 1 */
+            double sum = i == k;
+            for (size_t l = i + 1; l <= k; l++)
+                sum -= r[i][l] * inverse[l][k];
+            inverse[i][k] = sum / r[i][i];
+        }
+    }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            t->covariance[i][j] = dot(inverse[i], inverse[j], n);
+    for (int a = 0; a < BR_AXES; a++)
+        t->bend[a] =
+            t->law.of[a] ? bend(t->law.of[a], &t->value[OF(a, 0)], 0, cells->log_finest[a]) : 0;
+    for (size_t j = 0; j < n; j++)
+        if (e->unknown[j] < BR_THETA && e->unknown[j] % BR_OF_AXIS == BR_ORDER)
+            set_open(cells, e, j, e->unknown[j] / BR_OF_AXIS, t);
+}
+
+void br_joint_descend(struct br_joint_cells *cells, struct br_joint_trial *t)
+{
+    struct equations e = equations_of(cells, &t->law);
+    br_joint_approach(cells, 0, t);
+    if (cells->priors && isfinite(t->sum)) { /* once more, beside the noise that is seen */
+        e.noise = fmin(0.3, sqrt(t->sum / (double)cells->count) + 1e-8);
+        minimise(cells, &e, t, 1e-3);
+    }
+    finish(cells, &e, t);
 }
 
 /* ---- starts ---- */
@@ -407,15 +497,16 @@ void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AX
                 least = fmin(least, cells->cell[i].log_error);
         value[OF(a, BR_LOG_C)] = isfinite(least) ? least : 0;
         value[OF(a, BR_ORDER)] = order[a];
-        value[OF(a, BR_SHAPE)] = 0;
+        value[OF(a, BR_SHAPE)] = value[OF(a, BR_PLACE)] = 0;
     }
     value[BR_THETA] = asin(r);
     value[BR_LOG_F] = cells->lowest - log(2);
 }
 
-double br_joint_shape_start(const struct br_family *family)
+double br_joint_shape_start(const struct br_family *f)
 {
-    return family->law == BR_LAW_NEXT        ? 0.3
-           : family->law == BR_LAW_LOGARITHM ? log(fmax(4, 1.5 * family->low))
-                                             : log(family->low * family->high) / 2;
+    return f->law == BR_LAW_NEXT        ? 0.3
+           : f->law == BR_LAW_KINK      ? 0.5
+           : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1.5 * f->low))
+                                        : log(f->low * f->high) / 2;
 }

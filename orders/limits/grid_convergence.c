@@ -70,8 +70,13 @@ static double order_of(const struct triplet *t)
     return (low + high) / 2;
 }
 
-static enum br_sequence sequence_of(const struct triplet *t)
+/* A smaller order shows no limit: it would be more than 36 differences away, at a ratio of 2. */
+static const double least_order = 0.05;
+
+static enum br_sequence sequence_of(const struct triplet *t, double order)
 {
+    if (t->s > 0 && fabs(order) < least_order)
+        return BR_SEQUENCE_LOGARITHM;
     if (t->s < 0)
         return t->ln_growth > 0 ? BR_OSCILLATORY_CONVERGENCE : BR_OSCILLATORY_DIVERGENCE;
     return t->ln_growth > log(t->ln32 / t->ln21) ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE;
@@ -120,8 +125,8 @@ static void judge_triplet(const double *h, const double *value, struct br_gci *g
         .ln_growth = log(fabs(e32)) - log(fabs(e21)),
         .s = (e32 > 0) == (e21 > 0) ? 1 : -1,
     };
-    gci->sequence = sequence_of(&t);
     gci->order = order_of(&t);
+    gci->sequence = sequence_of(&t, gci->order);
 }
 
 bool br_gci_is_far(const struct br_gci *gci, double formal)

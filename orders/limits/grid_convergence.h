@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Three values of a quantity on finer and finer grids, without a reference: the grid convergence index of Celik, Ghia, Roache, Freitas, Coleman and Raad,
- * "Procedure for Estimation and Reporting of Uncertainty Due to Discretization in CFD
- * Applications", J. Fluids Eng. 130, 078001 (2008), and of ASME V&V 20-2009. The limit with its
- * interval is that of limits.h.
+/* Three values of a quantity on finer and finer grids, without a reference: the grid convergence
+ * index of Celik, Ghia, Roache, Freitas, Coleman and Raad, "Procedure for Estimation and Reporting
+ * of Uncertainty Due to Discretization in CFD Applications", J. Fluids Eng. 130, 078001 (2008), and
+ * of ASME V&V 20-2009. The limit with its interval is that of limits.h.
  *
  * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine,
  * each smaller than the one before, with finite ratios, and value[count] is the quantity on these
@@ -16,15 +16,16 @@
 #include "orders/estimate.h"
 
 /* X(name, text): how a sequence of values behaves. */
-#define BR_SEQUENCE_LIST(X)                                  \
-    X(BR_SEQUENCE_UNKNOWN, "not known")                      \
-    X(BR_SEQUENCE_CONSTANT, "constant")                      \
-    X(BR_MONOTONE_CONVERGENCE, "monotone convergence")       \
-    X(BR_OSCILLATORY_CONVERGENCE, "oscillatory convergence") \
-    X(BR_MONOTONE_DIVERGENCE, "monotone divergence")         \
-    X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")   \
+#define BR_SEQUENCE_LIST(X)                                           \
+    X(BR_SEQUENCE_UNKNOWN, "not known")                               \
+    X(BR_SEQUENCE_CONSTANT, "constant")                               \
+    X(BR_MONOTONE_CONVERGENCE, "monotone convergence")                \
+    X(BR_OSCILLATORY_CONVERGENCE, "oscillatory convergence")          \
+    X(BR_MONOTONE_DIVERGENCE, "monotone divergence")                  \
+    X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")            \
     X(BR_SEQUENCE_SCATTER, "changes within the scatter of the means") \
-    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour")
+    X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour")                   \
+    X(BR_SEQUENCE_LOGARITHM, "growth like a logarithm")
 
 enum br_sequence {
 #define X(name, text) name,
@@ -53,7 +54,9 @@ struct br_gci_pair {
  * For equal ratios the left side is |R|, with R = e21/e32 of the literature. For unequal ones R
  * alone misleads: values 1 + h at h = 1, 1/10 and 1/100000 have R = 0.11, but at h = 1, 10/11 and
  * 5/11 R = 5. The quotient of the logarithms is the limit of (r32^p - 1)/(r21^p - 1) for p -> 0.
- * Differences within round-off count as zero: two, the sequence is constant; one, not known. */
+ * Differences within round-off count as zero: two, the sequence is constant; one, not known. An
+ * order within 0.05 of zero, of one sign, is that of a logarithm: differences stay, and no limit is
+ * in sight. */
 struct br_gci {
     enum br_sequence sequence;
     double order;                    /* p, (3): negative if divergent */

@@ -42,6 +42,12 @@ static void leave_scatter(struct br_gci *gci, const struct br_line_value *v)
 
 /* ---- a line ---- */
 
+static void find_gci(const struct br_line_value *v, struct br_gci *gci)
+{
+    br_gci((const double[]){v[0].h, v[1].h, v[2].h},
+           (const double[]){v[0].value, v[1].value, v[2].value}, 3, gci);
+}
+
 /* The round-off that the difference of two values may have. */
 static double round_off_of(const struct br_line_value *v, size_t count)
 {
@@ -74,9 +80,12 @@ static int turns_of(const struct br_line_value *v, size_t first, size_t last)
 /* sure: the least probability. */
 static enum br_sequence sequence_of(const struct br_line_order *found, int turns, double sure)
 {
+    static const double small = 0.4; /* an order: values may grow like log n, or its logarithm */
     const bool falls = found->converges >= sure, grows = found->diverges >= sure;
     if (!falls && !grows)
-        return BR_SEQUENCE_UNKNOWN;
+        return turns > 0 && found->order.high < small && found->order.low > -small
+                   ? BR_SEQUENCE_LOGARITHM
+                   : BR_SEQUENCE_UNKNOWN;
     if (turns == 0)
         return falls ? BR_SEQUENCE_ANOMALOUS : BR_SEQUENCE_UNKNOWN;
     return turns > 0 ? (falls ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE)
@@ -90,21 +99,26 @@ static double back(double ratio, double order)
 }
 
 /* The limit from what is left at the finest value, in the direction of its difference; of values
- * that alternate it lies on the way back, of others on either side. */
+ * that alternate it lies on the way back, of others on either side. Three values show no order:
+ * they may have passed the limit, by a tenth of the difference, and those that turn may have any.
+ */
 static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
                                    const struct br_line_order *found, int turns)
 {
+    static const double passed = 0.1;
     const struct br_line_value *finest = &v[count - 1];
     const double step = finest->value - finest[-1].value, sign = step < 0 ? -1 : 1;
     const double own = finest->half + finest->rounding;
+    const bool few = isnan(found->order.value);
     double low = found->left.low, high = found->left.high, value = found->left.value;
-    if (turns < 0) {
+    if (few)
+        low = fmin(low, -passed * fabs(step));
+    if (turns < 0 && !few) {
         const double r = finest->h / finest[-1].h;
         value = -fabs(step) * back(r, found->order.value);
         low = -fabs(step) * fmax(back(r, found->order.low), back(r, 0.5 * found->order.value));
         high = -fabs(step) * back(r, fmax(found->order.high, 1.5 * found->order.value));
-    }
-    if (turns == 0) { /* terms of opposite sign, or noise: as far as the last values are apart */
+    } else if (turns <= 0) { /* opposite terms, or noise: as far as the last values are apart */
         for (size_t i = count < 4 ? 0 : count - 4; i + 1 < count; i++)
             high = fmax(fmax(fabs(high), fabs(low)), fabs(v[i].value - finest->value));
         low = -high;
@@ -152,6 +166,11 @@ enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
     /* The scatter of means is known, which the mixture takes from few differences. */
     const double sure = half > 0 ? 0.5 : 0.9;
     limit->sequence = sequence_of(&found, turns, sure);
+    if (count == 3 && limit->sequence == BR_SEQUENCE_UNKNOWN) {
+        struct br_gci gci;
+        find_gci(v, &gci);
+        limit->sequence = gci.sequence == BR_SEQUENCE_LOGARITHM ? gci.sequence : limit->sequence;
+    }
     limit->order = found.order.value;
     if (limit->sequence != BR_SEQUENCE_UNKNOWN && found.converges >= sure &&
         isfinite(found.left.value))
@@ -175,9 +194,7 @@ enum br_status br_limits_find(const struct br_line_value *v, size_t count, struc
     if (!limits->triple)
         return br_no_memory(err, "the limits");
     for (size_t i = 0; i + 2 < count; i++) {
-        const double h[] = {v[i].h, v[i + 1].h, v[i + 2].h},
-                     value[] = {v[i].value, v[i + 1].value, v[i + 2].value};
-        br_gci(h, value, 3, &limits->triple[i]);
+        find_gci(v + i, &limits->triple[i]);
         leave_scatter(&limits->triple[i], v + i);
         limits->gci = limits->triple[i];
         limits->triples = i + 1;

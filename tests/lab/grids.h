@@ -17,6 +17,7 @@ struct br_grid {
     size_t meshes, steps, rows;
     double h[BR_GRID_MOST], k[BR_GRID_MOST], e[BR_GRID_MOST]; /* rows */
     double order[2];                                          /* in h and k; NaN: there is none */
+    double other[2]; /* the order may as well be this one; NaN: it may not */
 };
 
 /* What a class adds to two powers. */
@@ -33,6 +34,7 @@ struct br_grid_law {
     int digits;             /* as printed; 0: six */
     enum { BR_GRID_FULL, BR_GRID_MISSING, BR_GRID_TIED, BR_GRID_DIAGONALS } cells;
     enum { BR_GRID_FALLS, BR_GRID_STAYS, BR_GRID_GROWS, BR_GRID_SCATTERS } kind;
+    enum { BR_GRID_ONE_ORDER, BR_GRID_KINK, BR_GRID_MAXIMUM } changes; /* order: at a size, between */
 };
 
 static inline double br_grid_normal(struct br_random *r)
@@ -76,13 +78,35 @@ static inline void br_grid_balance(struct br_random *r, const struct br_grid *g,
     c[1] = c[0] * pow(10, balance == 0 ? -decades : decades);
 }
 
+/* A power of a size x relative to the coarsest; where the order changes, another one below t. */
+static inline double br_grid_power(const struct br_grid *g, int axis, double x, double t)
+{
+    const double p = g->order[axis], coarse = isnan(g->other[axis]) ? p : g->other[axis];
+    return x < t ? pow(t, coarse - p) * pow(x, p) : pow(x, coarse);
+}
+
 /* An error of both at sizes x, y relative to the coarsest. */
 static inline double br_grid_error(const struct br_grid *g, const double c[2],
-                                   const double next[2], double r, double x, double y)
+                                   const double next[2], double r, double x, double y, double t)
 {
-    const double a = c[0] * pow(x, g->order[0]) * (1 + next[0] * x);
-    const double b = c[1] * pow(y, g->order[1]) * (1 + next[1] * y);
+    const double a = c[0] * br_grid_power(g, 0, x, t) * (1 + next[0] * x);
+    const double b = c[1] * br_grid_power(g, 1, y, t) * (1 + next[1] * y);
     return sqrt(fmax(0, a * a + 2 * r * a * b + b * b));
+}
+
+/* Makes the order of one axis change, to a lower one; returns the size at which it does. */
+static inline double br_grid_change(struct br_random *r, const struct br_grid_law *law,
+                                    struct br_grid *g)
+{
+    const int axis = (int)br_random_index(r, 2);
+    const double sizes = (double)(axis ? g->steps : g->meshes), least = 1;
+    if (law->changes == BR_GRID_ONE_ORDER)
+        return 0;
+    g->other[axis] = g->order[axis] = fmax(1.5, g->order[axis]);
+    g->order[axis] -= br_random_uniform(r, 0.4, 1);
+    const double from = law->changes == BR_GRID_KINK ? 1 + (double)br_random_index(r, 2)
+                                                     : br_random_uniform(r, least, 2.9);
+    return pow(2, fmin(from, sizes - 3) + 1 - sizes);
 }
 
 /* Multiplies cells of a full grid: those of the largest k at the finest meshes, or any. */
@@ -104,6 +128,7 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
         .meshes = law->least + br_random_index(r, law->most - law->least + 1),
         .steps = law->least + br_random_index(r, law->most - law->least + 1),
         .order = {orders[br_random_index(r, 5)], orders[br_random_index(r, 5)]},
+        .other = {NAN, NAN},
     };
     const double ratio = 2, correlation = br_random_uniform(r, law->least_r, law->most_r);
     double next[] = {br_random_uniform(r, -law->next, law->next),
@@ -113,9 +138,10 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
     for (int a = 0; a < 2 && law->lower; a++)
         next[a] = br_random_uniform(r, 1, 8);
     br_grid_balance(r, g, law->balance, ratio, c);
+    const double t = br_grid_change(r, law, g);
     const double finest = br_grid_error(g, c, next, fmax(0, correlation),
                                         pow(ratio, 1 - (double)g->meshes),
-                                        pow(ratio, 1 - (double)g->steps));
+                                        pow(ratio, 1 - (double)g->steps), t);
     const double level = fabs(law->floor) * br_random_uniform(r, 0.3, 1) * finest;
     const double growth = br_random_uniform(r, 0.5, 3);
     for (size_t i = 0; i < g->meshes; i++)
@@ -123,7 +149,7 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
             const double x = pow(ratio, -(double)i), y = pow(ratio, -(double)j);
             const double log_h = law->logarithm ? 1 - log(x) / log(1 / h0) : 1;
             const double of[] = {c[0] * log_h, c[1]};
-            double e = br_grid_error(g, of, next, correlation, x, y);
+            double e = br_grid_error(g, of, next, correlation, x, y, t);
             e = law->floor < 0 ? hypot(e, level) : e + level;
             if (law->kind == BR_GRID_STAYS)
                 e = c[0];
@@ -186,6 +212,10 @@ static const struct br_grid_class {
     {"blown-up cells", BR_HARD_ERRORS, {.least_r = 1, .most_r = 1, .blown = 3, .least = 4, .most = 5}},
     {"two diagonals", BR_SMOOTH_ERRORS,
      {.least_r = 1, .most_r = 1, .least = 4, .most = 6, .cells = BR_GRID_DIAGONALS}},
+    {"order changes at a size", BR_TWO_ORDERS,
+     {.least_r = -.5, .most_r = 1, .least = 4, .most = 6, .changes = BR_GRID_KINK}},
+    {"order changes between sizes", BR_TWO_ORDERS,
+     {.least_r = -.5, .most_r = 1, .least = 4, .most = 6, .changes = BR_GRID_MAXIMUM}},
     {"constant, 2 % noise", BR_NO_ORDER, {.noise = .02, .least = 3, .most = 6, .kind = BR_GRID_STAYS}},
     {"grows, 5 % noise", BR_NO_ORDER, {.noise = .05, .least = 3, .most = 6, .kind = BR_GRID_GROWS}},
     {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
@@ -239,6 +269,7 @@ static inline struct br_grid br_value_grid_of(size_t class, uint64_t seed, size_
         .meshes = 4 + br_random_index(r, 3),
         .steps = law->line ? 1 : 4 + br_random_index(r, 3),
         .order = {orders[br_random_index(r, 3)], orders[br_random_index(r, 3)]},
+        .other = {NAN, NAN},
     };
     *limit = br_random_uniform(r, -2, 2);
     const double sign = br_random_once_in(r, 2) ? -1 : 1;
