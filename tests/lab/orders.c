@@ -225,8 +225,8 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
         struct br_case c;
         const struct br_estimate *order = &o.of[0].answer[axis].order;
         const double truth = g.order[axis], expected = isnan(truth) ? 2 : truth;
-        bool wrong = verdict_of(&o, axis, index % 2 == 0 ? expected + 0.5 : expected - 0.4, &c) ==
-                     BR_PASS;
+        bool wrong =
+            verdict_of(&o, axis, index % 2 == 0 ? expected + 0.5 : expected - 0.4, &c) == BR_PASS;
         wrong = isnan(g.other[axis]) ? wrong : verdict_of(&o, axis, g.other[axis], &c) == BR_PASS;
         t->wrong_pass += wrong;
         t->contradicts += verdict_of(&o, axis, expected, &c) == BR_FAIL && !isfinite(order->value);
