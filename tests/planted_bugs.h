@@ -985,8 +985,8 @@ static const struct planted_bug planted_bugs[] = {
     {"order_without_the_loss", "lost", "orders/line/line_order.c", "tests/test_orders test_values",
      "r->y[i] -= loss(r->ratio[i], r->order, &slope) - slope * r->order;", "slope = 0;"},
     {"verdict_by_the_value", "verdict", "orders/expectation/verdict.c", "tests/test_verdict",
-     "if ((c->order.low >= low && c->order.high <= high) ||",
-     "if ((c->order.value >= low && c->order.value <= high) ||"},
+     "within = c->order.low >= low && c->order.high <= high;",
+     "within = c->order.value >= low && c->order.value <= high;"},
     {"rates_may_rise", "verdict", "orders/expectation/verdict.c", "tests/test_verdict test_two_powers",
      "fmin(high, last + c->expected.tolerance)", "high"},
     {"verdict_without_its_floor", "verdict", "orders/expectation/verdict.c", "tests/test_verdict",
@@ -1719,7 +1719,7 @@ static const struct planted_bug planted_bugs[] = {
     {"digits_of_a_hexadecimal_number", "lost", "orders/program/program_reading.c",
      "tests/test_program test_exponents", "strchr(text, 'x') || strchr(text, 'X') ? NULL : ", ""},
     {"a_clear_failure_asks_for_finer_grids", "lost", "orders/expectation/verdict.c",
-     "tests/test_orders test_advice", "(outside ? 0.9 : 1)", "1"},
+     "tests/test_orders test_advice", "(t.outside ? 0.9 : 1)", "1"},
     {"farthest_name_unsaid", "lost", "base/words.c",
      "tests/test_suggestions", "best + !nearest", "best"},
     {"units_of_any_dimension_suggested", "unit", "study/scene/units.c",
@@ -1808,6 +1808,11 @@ static const struct planted_bug planted_bugs[] = {
     {"floor_of_one_march", "bound", "study/trade/split.c",
      "tests/test_split test_floor_of_two_marches", "2 * c->d->study[norm][audit]",
      "c->d->study[norm][audit]"},
+    {"two_powers_pass_unsaid", "lost", "orders/expectation/verdict.c",
+     "tests/test_verdict test_two_powers", "if (!within)", "if (within)"},
+    {"few_digits_ask_for_finer_grids", "lost", "orders/expectation/verdict.c",
+     "tests/test_orders test_advice", "t.stays && !t.outside && enough(c) < few",
+     "t.stays && !t.outside && few < 0"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
