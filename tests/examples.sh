@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Every example that the program's help, the README and the pages of docs/ print works as it stands.
-# $BEAMRATE is the program, $BEAMRATE_DATA the source tree.
+# $BEAMRATE is the program, beside it is beamrate-orders, $BEAMRATE_DATA is the source tree.
 #
 # A block of a page that begins with ```sh is run line by line. One that begins with ```sh long would
 # take minutes: of its lines only the command and the names of the options are tried. A block of YAML
@@ -17,6 +17,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 99
 mkdir bin files few few/study few/study/scenes
 ln -s "$BEAMRATE" bin/beamrate
+ln -s "$(dirname "$BEAMRATE")/beamrate-orders" bin
 PATH=$work/bin:$PATH
 export PATH
 
@@ -38,7 +39,7 @@ pages() {
         }
         first && inside && (how == "" || how == "text") {
             sub(/^\$ /, "")
-            print (/^beamrate / ? "shown\t" at "\t" $0 : "bad\t" at "\techo line " FNR ": no command")
+            print (/^beamrate(-orders)? / ? "shown\t" at "\t" $0 : "bad\t" at "\techo line " FNR ": no command")
         }
         how == "yaml" && first && /^# [a-z_]+\.yaml/ { file = scenes $2; sub(/\.yaml.*/, ".yaml", file) }
         how == "yaml" && first && !file && !/^# part/ { print "bad\t" at "\techo line " FNR ": YAML without a name" }
@@ -47,7 +48,7 @@ pages() {
         how != "short" && how != "long" { next }
         {
             sub(/^ */, "")
-            if (whole == "" && !/^(\$?beamrate|mpirun|cc) /)
+            if (whole == "" && !/^(\$?beamrate(-orders)?|mpirun|cc) /)
                 next
             whole = whole $0
             if (sub(/\\$/, "", whole))
