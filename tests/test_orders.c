@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "orders/request.h"
 #include "base/load.h"
 #include "checks.h"
+#include "orders/request.h"
 
 static struct br_error err;
 
@@ -150,6 +150,9 @@ TEST(test_lists)
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
     assert_false(br_lists(",", ""));
+    assert_false(br_lists("c", NULL));
+    refuse_with("10,4.2e-2\n20,1.1e-2\n40,1.8e-3\n80,1.3e-4\nn,l2\n",
+                &(struct columns){NULL, "l2", 2, NULL}, "t.csv");
 }
 
 /* Tables as programs write them: the order of one column, and what was taken for what. */
