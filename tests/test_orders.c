@@ -985,6 +985,11 @@ TEST(test_advice)
     assert_int_equal(verdict_of(table, NULL, "l2: h 3 +- 0.1", why), BR_FAIL);
     if (!strstr(why, "finer grids do not help: the two finest show 2.00"))
         fail_msg("%s", why);
+    static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n";
+    assert_int_equal(verdict_of(digits, NULL, "l2: h 2 +- 0.005", why), BR_INCONCLUSIVE);
+    if (!strstr(why, "Take a tolerance of 0.01, or give errors with more digits") ||
+        strstr(why, "add a row"))
+        fail_msg("%s", why);
 }
 
 /* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
