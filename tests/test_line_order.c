@@ -134,6 +134,46 @@ TEST(test_each_law)
     }
 }
 
+static double inverse_logarithm(double z)
+{
+    return 1 / (2.3 - log(z));
+}
+
+static double inverse_square(double z)
+{
+    return pow(inverse_logarithm(z), 2);
+}
+
+static double floor_that_falls(double z)
+{
+    return 0.02 * pow(z, 0.2) + 0.1 * z;
+}
+
+static double roots(double z)
+{
+    return 0.05 * pow(z, 0.2) + 0.05 * z;
+}
+
+/* Laws with a correction have no order near zero, and their intervals do not exclude it, from as
+ * many rows on as show that the order falls. */
+TEST(test_small_orders)
+{
+    static const struct {
+        double (*error)(double z);
+        size_t least;
+    } small[] = {{inverse_logarithm, 4}, {inverse_square, 4}, {floor_that_falls, 6}, {roots, 4}};
+    for (size_t i = 0; i < sizeof small / sizeof *small; i++)
+        for (size_t rows = small[i].least; rows <= ROWS; rows++) {
+            struct br_order_point point[ROWS];
+            struct br_line_order f;
+            make(small[i].error, 1, point);
+            find(point, rows, &f);
+            if (!(f.order.low <= 0 && f.low99 < f.order.low))
+                fail_msg("line %zu, %zu rows: %g [%g, %g]", i, rows, f.order.value, f.order.low,
+                         f.order.high);
+        }
+}
+
 /* The interval of 99 % holds that of 95 %, that holds the value; the laws' probabilities add up. */
 TEST(test_what_is_stated)
 {

@@ -882,6 +882,10 @@ static enum br_status take_left(const struct mixture *all, const struct rows *r,
 /* Values whose differences fall by a smaller order may grow as log log n. */
 static const double least_convergence = 0.3, surely_falls = 0.1;
 
+/* No law with a correction has an order below that of a floor, so that errors which fall as the
+ * inverse of a logarithm take the next larger orders: then the order may be zero, too. */
+static const double small = 0.4;
+
 static void describe(struct mixture *all, const struct rows *r, double finest,
                      struct br_line_order *found)
 {
@@ -900,6 +904,10 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
         found->order = estimate(all);
         found->low99 = quantile(all, 0.005);
         found->high99 = quantile(all, 0.995);
+        if (found->order.low > 0 && found->order.low < small && !(found->law[BR_LAW_POWER] > 0.5)) {
+            found->order.low = 0;
+            found->low99 = -surely_falls;
+        }
     }
     found->converges = exponential ? 1 : 1 - probability_below(all, all->few ? 0.2 : surely_falls);
     found->diverges = exponential ? 0 : probability_below(all, 0);
