@@ -148,8 +148,9 @@ static enum br_status conclude(const struct br_verdicts *v, const struct br_chec
     if (passed < all)
         return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", all - passed, all);
     if (v->comparison.tally[BR_SERIOUS])
-        return br_fail(err, BR_VERDICT, "serious differences from %s: %zu", v->compare,
-                       v->comparison.tally[BR_SERIOUS]);
+        return br_fail(err, BR_VERDICT, "serious differences from %s: %zu; first: %s: %s",
+                       v->compare, v->comparison.tally[BR_SERIOUS],
+                       v->comparison.difference->subject, v->comparison.difference->remark);
     return BR_OK;
 }
 
