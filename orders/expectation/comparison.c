@@ -381,6 +381,21 @@ static enum br_status check_methods(const struct br_check *check, const struct b
     return BR_OK;
 }
 
+static enum br_status refuse_others(const struct br_check *checks, size_t count,
+                                    const struct br_old_check *old, struct br_error *err)
+{
+    enum { FIRST = 5 };
+    char has[640] = "";
+    const char *what = "scene";
+    for (size_t i = 0; i < count; i++)
+        what = checks[i].of_program ? "source" : what;
+    for (size_t i = 0; i < old->count && i < FIRST; i++)
+        br_append(has, sizeof has, "%s%.100s", i ? ", " : "", old->check[i].name);
+    return br_fail(err, BR_BAD_INPUT,
+                   "none of these %ss is in the earlier check %.200s, which has %s%s", what,
+                   old->path, *has ? has : "none", old->count > FIRST ? ", ..." : "");
+}
+
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err)
 {
@@ -397,9 +412,7 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
                        check_methods(&checks[i], old, (size_t)(before - old->check), err)))
             return err->status;
     }
-    return found ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT,
-                           "none of these scenes is in the earlier check, expected at least one");
+    return found ? BR_OK : refuse_others(checks, count, old, err);
 }
 
 enum br_status br_compare(const struct br_check *checks, size_t count, bool whole,
