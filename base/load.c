@@ -16,6 +16,8 @@ static enum br_status fail_with_errno(const char *path, struct br_error *err)
 {
     const int why = errno;
     char suggestion[BR_SUGGESTION] = "";
+    if (!*path)
+        return br_fail(err, BR_BAD_INPUT, "found '', expected a file's name");
     if (why == ENOENT)
         br_suggest_file(path, suggestion);
     return br_fail(err, br_status_of_errno(why), "%s: %s%s", path, strerror(why), suggestion);

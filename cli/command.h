@@ -50,7 +50,8 @@ struct br_program {
     const char *name, *about, *hint;          /* hint: the last sentence of the help */
     const struct br_command *const *commands; /* NULL-terminated, in the order of the help */
     const char *example[BR_MOST_EXAMPLES];
-    const struct br_beam *beam; /* NULL: none */
+    const struct br_beam *beam;     /* NULL: none */
+    const char *const *of_beamrate; /* commands that only beamrate has; NULL-terminated, or NULL */
 };
 extern const struct br_program br_program;
 

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/quote.h"
@@ -25,8 +26,28 @@ const struct br_command *br_find_command(const char *name)
     return NULL;
 }
 
+/* The command that takes a file of this name; NULL: it looks like none. */
+static const char *command_of_file(const char *word)
+{
+    struct stat info;
+    const bool there = stat(word, &info) == 0 && !S_ISDIR(info.st_mode);
+    const char *dot = strrchr(word, '.');
+    if (dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0))
+        return "check";
+    return there || (dot > word && dot[1] && word[0] != '-') ? "orders" : NULL;
+}
+
 static enum br_status unknown(const char *word, struct br_error *err)
 {
+    for (const char *const *other = br_program.of_beamrate; other && *other; other++)
+        if (strcmp(*other, word) == 0)
+            return br_fail(err, BR_BAD_INPUT,
+                           "'%s' is a command of the program beamrate, not of %s", word,
+                           br_program.name);
+    const char *command = command_of_file(word);
+    if (command)
+        return br_fail(err, BR_BAD_INPUT, "'%s' is no command; did you mean: %s %s %s", word,
+                       br_program.name, command, word);
     const char *names[64] = {"--help", "--version"};
     size_t count = 2;
     for (const struct br_command *const *c = br_program.commands; *c && count < 64; c++)

@@ -35,6 +35,9 @@ static const struct br_command *const commands[] = {
     NULL,
 };
 
+static const char *const of_beamrate[] = {"run",      "study",  "trade",       "tables", "figures",
+                                          "extremes", "scenes", "completions", NULL};
+
 const struct br_program br_program = {
     .name = "beamrate-orders",
     .about = "observed orders of convergence, with their intervals and verdicts",
@@ -43,6 +46,7 @@ const struct br_program br_program = {
     .example = {"beamrate-orders orders errors.csv",
                 "beamrate-orders orders errors.csv --expect 'l2: h 2 +- 0.1'",
                 "beamrate-orders check study.yaml"},
+    .of_beamrate = of_beamrate,
 };
 
 int main(int argc, const char **argv)

@@ -79,15 +79,16 @@ bool br_make_folders(const char *path, mode_t last, size_t *made);
  * beside its place, then renamed into it. Begins as zeros. */
 struct br_whole_file {
     const char *path; /* as given; borrowed; NULL: not wanted, and all calls do nothing */
-    char *place;      /* the path with symbolic links followed; owned; NULL: standard output, a
-                         device, or a pipe without a name */
-    bool renamed;     /* else it is no plain file, and is written directly */
+    char *place;      /* the path with symbolic links followed; owned; NULL: standard output or
+                         error, a device, or a pipe without a name */
+    bool renamed;     /* else it is no plain file, or is open already, and is written directly */
     FILE *file;       /* to be written */
     char *text;       /* size bytes: what was written; owned */
     size_t size;
 };
 
-/* Opens a file for writing; "-", or another name of standard output, is standard output. Call it
+/* Opens a file for writing; "-" is standard output. What the program was given open, as standard
+ * output, standard error or another descriptor, is written to where it stands. Call it
  * before a long computation. Fails with BR_BAD_INPUT, naming the option, if the file cannot be
  * written; with BR_NO_MEMORY. Discard it even then. */
 enum br_status br_whole_file_open(struct br_whole_file *whole, const char *option, const char *path,

@@ -75,11 +75,12 @@ static enum br_status read_baseline(struct br_verdicts *v, const struct br_optio
         return BR_OK;
     if (br_check_read_json(v->compare, &v->old, err)) {
         const struct br_error why = *err;
-        return why.status != BR_BAD_INPUT || !update
-                   ? why.status
-                   : br_fail(err, BR_BAD_INPUT,
-                             "%.400s; --update-baseline replaces no other file than a baseline",
-                             why.message);
+        if (why.status != BR_BAD_INPUT || (!update && access(v->compare, F_OK) == 0))
+            return why.status;
+        return br_fail(err, BR_BAD_INPUT,
+                       update ? "%.400s; --update-baseline replaces no other file than a baseline"
+                              : "%.400s (--update-baseline writes it)",
+                       why.message);
     }
     if (!br_compare_check(checks, count, &v->old, err))
         return BR_OK;
@@ -148,8 +149,9 @@ static enum br_status conclude(const struct br_verdicts *v, const struct br_chec
     if (passed < all)
         return br_fail(err, BR_VERDICT, "%zu of %zu orders do not pass", all - passed, all);
     if (v->comparison.tally[BR_SERIOUS])
-        return br_fail(err, BR_VERDICT, "serious differences from %s: %zu", v->compare,
-                       v->comparison.tally[BR_SERIOUS]);
+        return br_fail(err, BR_VERDICT, "serious differences from %s: %zu; first: %s: %s",
+                       v->compare, v->comparison.tally[BR_SERIOUS],
+                       v->comparison.difference->subject, v->comparison.difference->remark);
     return BR_OK;
 }
 

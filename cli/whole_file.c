@@ -55,6 +55,30 @@ static FILE *open_special(const char *path)
     return file >= 0 ? fdopen(file, "w") : NULL;
 }
 
+/* The program's own stream, or one of a descriptor that it was given, if that is the file at the
+ * path: others write there, too, so the file is written to, not replaced. NULL: none is. */
+static FILE *open_already(const struct stat *old)
+{
+    enum { MOST = 9 }; /* a shell gives these numbers */
+    struct stat open;
+    for (int i = STDOUT_FILENO; i <= MOST; i++) {
+        const int mode = fcntl(i, F_GETFL);
+        if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY || fstat(i, &open) != 0 ||
+            S_ISCHR(open.st_mode) || old->st_dev != open.st_dev || old->st_ino != open.st_ino)
+            continue;
+        if (i == STDOUT_FILENO || i == STDERR_FILENO)
+            return i == STDOUT_FILENO ? stdout : stderr;
+        const int copy = fcntl(i, F_DUPFD_CLOEXEC, 0);
+        return copy >= 0 ? fdopen(copy, "w") : NULL;
+    }
+    return NULL;
+}
+
+static bool is_standard(const FILE *file)
+{
+    return file == stdout || file == stderr;
+}
+
 enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, const char *path,
                                   struct br_error *err)
 {
@@ -62,15 +86,14 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     errno = 0;
     if (!path)
         return BR_OK;
-    struct stat old, out;
+    struct stat old;
     const bool there = stat(path, &old) == 0;
-    if (strcmp(path, "-") == 0 ||
-        (there && fstat(STDOUT_FILENO, &out) == 0 && !S_ISCHR(out.st_mode) &&
-         old.st_dev == out.st_dev && old.st_ino == out.st_ino)) {
-        w->file = stdout;
+    w->file = strcmp(path, "-") == 0 ? stdout : there ? open_already(&old) : NULL;
+    if (is_standard(w->file))
         return BR_OK;
-    }
     w->place = there && S_ISCHR(old.st_mode) ? NULL : place_of(path);
+    if (w->file)
+        return BR_OK;
     w->renamed = w->place && (!there || S_ISREG(old.st_mode));
     if (w->renamed && can_be_replaced(w->place, there))
         w->file = br_text_open(&w->text, &w->size);
@@ -145,7 +168,7 @@ enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *er
     struct stat old;
     w->file = NULL;
     const bool failed = fflush(file) != 0 || ferror(file);
-    if (fclose(file) != 0 || failed || br_json_lacked_memory())
+    if ((!is_standard(file) && fclose(file) != 0) || failed || br_json_lacked_memory())
         return w->renamed ? br_no_memory(err, w->path)
                           : br_fail(err, BR_IO, "%s could not be written whole", w->path);
     if (!w->renamed)
@@ -158,7 +181,7 @@ enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *er
 
 void br_whole_file_discard(struct br_whole_file *w)
 {
-    if (w->file && w->file != stdout)
+    if (w->file && !is_standard(w->file))
         fclose(w->file);
     free(w->text);
     free(w->place);

@@ -315,6 +315,29 @@ static void ask_terminal(struct br_markup_page *p)
         isatty(fileno(p->out)) == 1 && !(plain && *plain) && term && strcmp(term, "dumb") != 0;
 }
 
+static bool has_failed(const struct br_document *d)
+{
+    bool failed = false;
+    for (size_t i = 0; i < d->verdicts; i++)
+        failed |= d->verdict[i].outcome != BR_OUTCOME_PASS;
+    return failed;
+}
+
+/* Prints the heads of all documents, those with failures first. */
+static void print_heads(struct br_markup_page *p, const struct br_document *d, size_t count)
+{
+    bool any = false;
+    for (int passed = 0; passed < 2; passed++)
+        for (size_t i = 0; i < count && !p->status; i++) {
+            if (has_failed(&d[i]) == passed)
+                continue;
+            fputs(any ? "\n" : "", p->out);
+            p->d = &d[i];
+            br_markup_head(p);
+            any = true;
+        }
+}
+
 /* Prints the heads of all documents, and then their bodies, with a title where there are several.
  */
 static enum br_status print_pages(FILE *out, const struct br_document *d, size_t count,
@@ -336,13 +359,10 @@ static enum br_status print_pages(FILE *out, const struct br_document *d, size_t
         return br_no_memory(err, "the text of a report");
     b.piece = b.visible + b.size;
     b.heading = b.piece + b.size;
-    for (size_t i = 0; i < 2 * count && !p.status; i++) {
-        p.d = &d[i % count];
-        if (i && i < count)
-            fputc('\n', out);
-        if (i < count)
-            br_markup_head(&p);
-        else if (br_markup_has_body(&p)) {
+    print_heads(&p, d, count);
+    for (size_t i = 0; i < count && !p.status; i++) {
+        p.d = &d[i];
+        if (br_markup_has_body(&p)) {
             if (count > 1) {
                 fputc('\n', out);
                 br_markup_heading(&p, p.level, p.d->caption);

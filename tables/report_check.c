@@ -81,29 +81,42 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
     br_put_command(d, key, label, check->defaults);
 }
 
-/* Puts the differences from an earlier check. now: the version of this program. */
-static void put_comparison(struct br_document *d, const struct br_comparison *c, const char *now)
+/* Puts the answer of a comparison with an earlier check. now: the version of this program. */
+static void answer_comparison(struct br_document *d, const struct br_comparison *c, const char *now)
+{
+    const size_t serious = c->tally[BR_SERIOUS];
+    for (size_t i = 0; i < serious && i < FIRST_FAILURES; i++)
+        br_put_answer(d, "FAIL %s: %s", c->difference[i].subject, c->difference[i].remark);
+    br_put_answer(d,
+                  "Compared with the earlier check: %zu serious, %zu warnings, %zu notes, %zu the "
+                  "same",
+                  serious, c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
+    if (c->version && strcmp(c->version, now) != 0)
+        br_put_more(d, "; the earlier check is by beamrate %s, this one by %s", c->version, now);
+}
+
+/* Puts the differences. Each serious one is a verdict, too: it fails. */
+static void put_comparison(struct br_document *d, const struct br_comparison *c)
 {
     static const struct br_column columns[] = {
         {.key = "severity"}, {.key = "subject", .heading = "what"},
         {.key = "before"},   {.key = "now"},
         {.key = "remark"},
     };
-    br_put_answer(d,
-                  "Compared with the earlier check: %zu serious, %zu warnings, %zu notes, %zu the "
-                  "same",
-                  c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
-    if (c->version && strcmp(c->version, now) != 0)
-        br_put_more(d, "; the earlier check is by beamrate %s, this one by %s", c->version, now);
-    for (size_t i = 0; i < c->count && i < FIRST_FAILURES; i++)
-        if (c->difference[i].severity == BR_SERIOUS && isnan(c->difference[i].now))
-            br_put_answer(d, *c->difference[i].remark ? "%s: %s" : "%s", c->difference[i].subject,
-                          c->difference[i].remark);
     BR_TABLE(d, "differences", "Compared with the earlier check", BR_LONG, columns);
     for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
         BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
                    br_number(x->before), br_number(x->now), br_text(*x->remark ? x->remark : NULL));
         br_put_shown(d, "%s", x->remark);
+        if (x->severity == BR_SERIOUS)
+            br_put_verdict(d, &(struct br_document_verdict){
+                                  .outcome = BR_OUTCOME_FAIL,
+                                  .group = "baseline",
+                                  .name = x->subject,
+                                  .message = x->remark,
+                                  .file = x->check && !x->check->no_file ? x->check->path : NULL,
+                                  .of_row = true,
+                              });
     }
 }
 
@@ -111,6 +124,8 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
 {
     br_document_begin(d, "check", "beamrate check", 2, "Orders of convergence");
 
+    if (f->comparison)
+        answer_comparison(d, f->comparison, f->provenance->version);
     const struct br_check *first;
     const size_t refused = br_check_failures(f->checks, f->count, &first);
     size_t orders = 0, of[BR_INCONCLUSIVE + 1];
@@ -180,7 +195,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     }
 
     if (f->comparison)
-        put_comparison(d, f->comparison, f->provenance->version);
+        put_comparison(d, f->comparison);
 
     /* For people, the points are details of the verdicts. */
     static const struct br_column points_columns[] = {

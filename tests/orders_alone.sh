@@ -61,6 +61,13 @@ ends 1 check fails.yaml --quiet
 [ "${BEAMRATE-}" ] && "$BEAMRATE" check example1 --quiet
 BEAMRATE='' ends 2 check example1
 BEAMRATE='' ends 2 run example1
+says "'run' is a command of the program beamrate, not of beamrate-orders"
+for command in $([ -z "${BEAMRATE-}" ] || "$BEAMRATE" help | sed -n 's/^  \([a-z][a-z]*\)  .*/\1/p'); do
+    "$BEAMRATE_ORDERS" help | grep -q "^  $command " || BEAMRATE='' ends 2 "$command"
+    grep -q 'is no command' err && fails "'$command' is unknown to beamrate-orders"
+done
+BEAMRATE='' ends 2 errors.csv
+says 'did you mean: beamrate-orders orders errors.csv'
 BEAMRATE='' ends 0 help
 says 'beamrate-orders orders errors.csv'
 

@@ -939,9 +939,11 @@ TEST(test_grammar)
     assert_string_equal(e[2].quantity, "drag x");
     assert_int_equal(e[2].axis, BR_AXIS_TIME);
     free(e);
-    refuse_expectation("", "expected a name");
-    refuse_expectation("l2", "found 'l2', expected a name");
-    refuse_expectation(": h 2 +- .1", "expected a name");
+    refuse_expectation("", "expected an error, h or k, its order and a tolerance, as in");
+    refuse_expectation("l2: h 2 +- .1, k 1 +- .1, h1: h 1 +- .1",
+                       "found 'h1: h 1 +- .1' behind a comma, expected h or k");
+    refuse_expectation("l2", "found 'l2', expected an error's name and ':'");
+    refuse_expectation(": h 2 +- .1", "expected an error's name");
     refuse_expectation("l2: x 2 +- .1", "found 'x 2 +- .1', expected h or k");
     refuse_expectation("l2: h -2 +- .1", "expected an order above 0");
     refuse_expectation("l2: h nan +- .1", "found 'nan +- .1', expected an order above 0");
@@ -1281,6 +1283,8 @@ TEST(test_verdicts)
         {grid, NULL, "l2: k 2 +- 0.1", BR_FAIL, ""},
         {grid, NULL, "l2: h 1 +- 0.1", BR_FAIL, ""},
         {few, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "has 3 errors, expected at least 4"},
+        {few, "l2", "l2: h 2 +- 0.1", BR_INCONCLUSIVE,
+         "3 values have 2 differences; a verdict needs 5 sizes; add a row finer than all others"},
         {gap, NULL, "l2: h 2 +- 0.1", BR_PASS, ""},
         {gap, NULL, "l2: h 3 +- 0.1", BR_FAIL, ""},
         {gaps, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE,

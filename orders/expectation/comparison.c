@@ -71,6 +71,20 @@ __attribute__((format(printf, 7, 8))) static void add(struct br_comparison *c, c
 
 /* ---- cases ---- */
 
+/* "the constant is 2.5 times the baseline's", "+3.4 %" */
+static const char *say_constant(double before, double now, char text[80])
+{
+    if (isnan(before) || isnan(now))
+        snprintf(text, 80,
+                 isnan(now) ? "the baseline has a constant, this check has none"
+                            : "the baseline has no constant");
+    else if (grade(factor(before, now), constant_steps) == BR_SERIOUS)
+        snprintf(text, 80, "the constant is %.3g times the baseline's", now / before);
+    else
+        snprintf(text, 80, "%+.2g %%", 100 * (now / before - 1));
+    return text;
+}
+
 /* A name that is not UTF-8 has got question marks in JSON (tables/json_value.h). */
 static bool same_name(const char *a, const char *b)
 {
@@ -134,7 +148,7 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
                           const struct br_case *old)
 {
     const struct br_expectation *e = &c->expected, *before = &old->expected;
-    char was[160], now[160];
+    char was[160], now[160], shown[80];
     const double shift = c->order.value - old->order.value;
     const enum br_severity verdict = old->verdict == c->verdict ? BR_SAME
                                      : c->verdict == BR_PASS    ? BR_NOTE
@@ -153,9 +167,10 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
         expects_less(e, before) ? BR_WARNING : BR_SAME, "looser: %s before, %s now",
         say_expectation(before, was), say_expectation(e, now));
     add(out, subject, "order", old->order.value, c->order.value, order,
-        "%+.2g of a tolerance of %.2g", shift, e->tolerance);
-    add(out, subject, "constant", old->constant, c->constant, constant, "%+.2g %%",
-        100 * (c->constant / old->constant - 1));
+        isnan(shift) ? "the baseline or this check has no order" : "%+.2g of a tolerance of %.2g",
+        shift, e->tolerance);
+    add(out, subject, "constant", old->constant, c->constant, constant, "%s",
+        say_constant(old->constant, c->constant, shown));
 }
 
 /* Compares cases, and reports earlier ones that are missing now. NULL: the scene is missing now, or
@@ -169,13 +184,14 @@ static void compare_cases(struct br_comparison *out, const struct br_check *chec
             const struct br_case *c = &both[was]->cases[i];
             const struct br_case *beside = other[was] ? find_case(other[was], c) : NULL;
             char subject[SUBJECT];
-            snprintf(subject, sizeof subject, "%.100s %s %s %s", both[was]->name,
-                     br_verify_names[c->kind], c->measure, c->part);
+            snprintf(subject, sizeof subject, "%.100s %s %s%s%s", both[was]->name,
+                     br_verify_names[c->kind], c->measure, *c->part ? " " : "", c->part);
             if (beside && !was)
                 compare_known(out, subject, c, beside);
             else if (!beside)
                 add(out, subject, was ? "gone" : "new", was ? c->order.value : NAN,
-                    was ? NAN : c->order.value, was ? BR_SERIOUS : BR_NOTE, "%s", "");
+                    was ? NAN : c->order.value, was ? BR_SERIOUS : BR_NOTE, "%s",
+                    was ? "the baseline has this order, this check has not" : "");
         }
 }
 
@@ -365,6 +381,21 @@ static enum br_status check_methods(const struct br_check *check, const struct b
     return BR_OK;
 }
 
+static enum br_status refuse_others(const struct br_check *checks, size_t count,
+                                    const struct br_old_check *old, struct br_error *err)
+{
+    enum { FIRST = 5 };
+    char has[640] = "";
+    const char *what = "scene";
+    for (size_t i = 0; i < count; i++)
+        what = checks[i].of_program ? "source" : what;
+    for (size_t i = 0; i < old->count && i < FIRST; i++)
+        br_append(has, sizeof has, "%s%.100s", i ? ", " : "", old->check[i].name);
+    return br_fail(err, BR_BAD_INPUT,
+                   "none of these %ss is in the earlier check %.200s, which has %s%s", what,
+                   old->path, *has ? has : "none", old->count > FIRST ? ", ..." : "");
+}
+
 enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                 const struct br_old_check *old, struct br_error *err)
 {
@@ -381,9 +412,7 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
                        check_methods(&checks[i], old, (size_t)(before - old->check), err)))
             return err->status;
     }
-    return found ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT,
-                           "none of these scenes is in the earlier check, expected at least one");
+    return found ? BR_OK : refuse_others(checks, count, old, err);
 }
 
 enum br_status br_compare(const struct br_check *checks, size_t count, bool whole,
@@ -404,12 +433,15 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         return br_no_memory(err, "the comparison");
     for (size_t i = 0; i < count; i++) {
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
+        const size_t first = out->count;
         compare_cases(out, &checks[i], before);
         if (before) {
             compare_scene(out, &checks[i], before);
             compare_methods(out, &checks[i], old, (size_t)(before - old->check));
             compare_cost(out, &checks[i], before);
         }
+        for (size_t j = first; j < out->count; j++)
+            out->difference[j].check = &checks[i];
     }
     for (size_t i = 0; i < old->count && whole; i++)
         if (!find_check(checks, count, old->check[i].name))

@@ -38,7 +38,8 @@ struct br_difference {
     char subject[192];  /* "example1 space l2 axial: order" */
     double before, now; /* NaN: there is none */
     enum br_severity severity;
-    char remark[320]; /* or "" */
+    char remark[320];             /* of a serious one never "" */
+    const struct br_check *check; /* borrowed; NULL: it is gone */
 };
 
 struct br_comparison {

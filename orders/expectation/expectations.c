@@ -70,7 +70,7 @@ static enum br_status take_name(const char **at, char name[64], struct br_error 
             length--;
     }
     if (length == 0 || length > 63)
-        return refuse(*at, "a name of at most 63 bytes and ':'", err);
+        return refuse(*at, length ? "a name of at most 63 bytes" : "an error's name and ':'", err);
     snprintf(name, 64, "%.*s", (int)length, name_at);
     *at = br_skip_word(colon, ":");
     return BR_OK;
@@ -94,9 +94,18 @@ enum br_status br_expectations_read(const char *text, size_t line,
         return br_fail(err, BR_BAD_INPUT, "found %zu expected orders, expected at most %d", most,
                        MOST);
     const char *at = br_skip_word(text, "");
+    if (!*at)
+        return br_fail(err, BR_BAD_INPUT,
+                       "expected an error, h or k, its order and a tolerance, as in 'l2: h 2 +- "
+                       "0.1'; found nothing");
     char name[64] = "";
     for (bool goes_on = true, named = false; goes_on;) {
         struct br_order_expectation *e = &all[(*count)++];
+        if (named && at[strcspn(at, ",;:")] == ':')
+            return br_fail(err, BR_BAD_INPUT,
+                           "found '%.30s' behind a comma, expected h or k; another error begins "
+                           "after a semicolon, as in 'l2: h 2 +- 0.1; h1: h 1 +- 0.1'",
+                           at);
         if ((!named && take_name(&at, name, err)) || take_order(&at, e, err))
             return err->status;
         strcpy(e->quantity, name);

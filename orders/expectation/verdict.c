@@ -363,7 +363,9 @@ static void name_sizes(struct br_case *c)
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
     if (!(c->duration > 0) && !c->open && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
-                  lost ? c->point[0].label : last->label);
+                  lost                  ? c->point[0].label
+                  : last->z_against > 0 ? "all others" /* the finest value has no difference */
+                                        : last->label);
     if (!(c->duration > 0) || c->points < 2)
         return;
     br_append(c->reason, sizeof c->reason, "; expect it of");
@@ -545,6 +547,10 @@ void br_case_judge(struct br_case *c)
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
+    else if (c->points < BR_VERIFY_LEAST_POINTS && c->points > 1 &&
+             c->point[0].z_against == c->point[1].z)
+        conclude(c, BR_INCONCLUSIVE, "%zu values have %zu differences; a verdict needs %d sizes",
+                 c->points + 1, c->points, BR_VERIFY_LEAST_POINTS + 1);
     else if (c->points < BR_VERIFY_LEAST_POINTS)
         conclude(c, BR_INCONCLUSIVE, "the study has %zu errors, expected at least %d", c->points,
                  BR_VERIFY_LEAST_POINTS);

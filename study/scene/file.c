@@ -49,6 +49,17 @@ static const char *key_of_symbol(const char *section, const char *symbol, char t
     return text;
 }
 
+/* Names the sections that have this key. */
+static char *key_elsewhere(const char *section, const char *name, char text[BR_SUGGESTION])
+{
+    *text = '\0';
+    for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
+        if (strcmp(k->name, name) == 0 && strcmp(k->section, section) != 0)
+            br_append(text, BR_SUGGESTION, "%s%s%s%s", *text ? " or " : "; did you mean ",
+                      k->section, *k->section ? "." : "", k->name);
+    return *text ? br_append(text, BR_SUGGESTION, "?") : text;
+}
+
 static enum br_status read_entry(const struct br_scene_reader *r, const char *section,
                                  const yaml_node_t *name, const yaml_node_t *value)
 {
@@ -56,7 +67,7 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
         return br_scene_refuse(r, br_yaml_line(name), *section ? section : "scene",
                                "a key must be a word");
     const char *names[BR_MOST_SCENE_KEYS];
-    char expected[BR_EXPECTED], meant[BR_SUGGESTION];
+    char expected[BR_EXPECTED], meant[BR_SUGGESTION], elsewhere[BR_SUGGESTION];
     size_t count = 0;
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         if (strcmp(k->section, section) != 0)
@@ -67,10 +78,11 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
                        ? br_scene_refuse(r, br_yaml_line(name), k->name, "given twice")
                        : read_key(r, k, name, value);
     }
-    return br_scene_refuse(r, br_yaml_line(name), br_yaml_text(name), "unknown key%s%s, %s%s",
+    return br_scene_refuse(r, br_yaml_line(name), br_yaml_text(name), "unknown key%s%s, %s%s%s",
                            *section ? " in " : "", section,
                            br_expected(br_yaml_text(name), names, count, expected),
-                           key_of_symbol(section, br_yaml_text(name), meant));
+                           key_of_symbol(section, br_yaml_text(name), meant),
+                           key_elsewhere(section, br_yaml_text(name), elsewhere));
 }
 
 static enum br_status check_required(const struct br_scene_reader *r, const char *section,

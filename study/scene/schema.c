@@ -125,16 +125,17 @@ static enum br_status refuse_unit(const struct br_scene_value *v, const char *un
 {
     char text[2][BR_DIMENSION_TEXT], words[BR_UNIT_WORDS], suggestion[BR_SUGGESTION];
     const char *expected = br_dimension_words(wanted->of, text[0]);
+    const char *value = br_yaml_text(v->node);
     const char *ratio = v->key->need == BR_OR_RATIO ? ", or a number without unit" : "";
     if (!unknown)
-        return BR_REFUSE_VALUE(v, "found '%s', which is %s, expected %s, as %s%s",
-                               br_yaml_text(v->node), br_dimension_words(found->of, text[1]),
-                               expected, v->unit, ratio);
+        return BR_REFUSE_VALUE(v, "found '%s', which is %s, expected %s, as %s%s", value,
+                               br_dimension_words(found->of, text[1]), expected, v->unit, ratio);
     return BR_REFUSE_VALUE(
         v,
-        "found '%s', expected a number and its unit, %s%s, or another unit of %s, "
+        "found '%s', expected a number and its unit, %s%s%s%s%s%s, or another unit of %s, "
         "made of %s, with prefixes from n to T%s",
-        br_yaml_text(v->node), v->unit, ratio, expected, br_unit_words(words),
+        value, v->unit, *unknown ? "" : ", as in ", *unknown ? "" : value, *unknown ? "" : " ",
+        *unknown ? "" : v->unit, ratio, expected, br_unit_words(words),
         br_unit_suggestion(unknown, wanted->of, suggestion));
 }
 
