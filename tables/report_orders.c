@@ -30,12 +30,11 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
 {
     const int assumed = (int)o->numbers->dimension;
     const char *name = o->numbers->column[BR_AXIS_SPACE]->name;
-    const bool cells = strcmp(name, "cells") == 0;
     bool first = true;
     br_put_more(d, " (%d-D assumed", assumed);
     if (assumed == 1)
         br_put_more(d, ", or %s along one side", name);
-    for (int other = cells ? 1 : 2; other <= 3; other++)
+    for (int other = 1; other <= 3; other++)
         if (other != assumed) {
             br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
                         br_orders_in_dimension(o, order, other));

@@ -381,7 +381,7 @@ static void describe(const struct br_numbers *n, char text[2000])
  * read, or why it is not. */
 static void read_kind(char *row)
 {
-    static const char refused[] = "refused: ", where[] = "where ";
+    static const char refused[] = "refused: ", where[] = "where ", value[] = "value ";
     char *by_hand = br_test_part(row);
     const char *expected = br_test_part(by_hand);
     const bool chooses = strncmp(by_hand, where, strlen(where)) == 0;
@@ -390,6 +390,8 @@ static void read_kind(char *row)
     q.table = br_test_unescape(row);
     if (chooses)
         q.where = by_hand + strlen(where);
+    else if (strncmp(by_hand, value, strlen(value)) == 0)
+        q.values = by_hand + strlen(value);
     else if (strcmp(by_hand, "-") != 0)
         q.columns = by_hand;
     struct br_numbers n;

@@ -125,9 +125,8 @@ enum br_status br_roles_find(const struct br_fields *fields, const struct br_tab
                              struct br_roles *roles, struct br_error *err);
 void br_roles_clear(struct br_roles *roles); /* accepts zeros */
 
-/* Refuses the table: why, its headings, and how to name columns. word: an unknown heading, or NULL.
- */
-enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
+/* Refuses the table: why, its headings, and what helps (NULL: how to name columns). */
+enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *advice,
                                struct br_error *err);
 
 /* "line 3"; "row 2" of a source without lines. Returns text. */
