@@ -83,6 +83,7 @@ struct br_numbers {
     const struct br_joint_fit *fitted; /* their joint fit, where it is known; NULL: it is not */
     double dimension;                  /* of the mesh, where unknowns or cells are counted */
     bool assumed;                      /* nobody stated it */
+    bool samples;                      /* n counts samples, and not elements */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a

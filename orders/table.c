@@ -81,6 +81,8 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     if (axis == BR_AXIS_SPACE) {
         n->dimension = size->dimension;
         n->assumed = r->assumed_dimension;
+        n->samples = !r->halves && r->column[size->column].name &&
+                     br_is_samples(r->column[size->column].name);
     }
     for (size_t i = 0; i < r->rows; i++) {
         if (r->dropped[i])

@@ -50,6 +50,7 @@ static void say_meaning(struct br_document *d, const struct br_orders *o,
     static const char *const parts[] = {"half", "a quarter", "an eighth", "a sixteenth"};
     const char *finer = o->tied                               ? "half h and k"
                         : o->numbers->column[axis]->is_degree ? "twice the degree"
+                        : o->numbers->samples                 ? "twice the samples"
                         : axis == BR_AXIS_SPACE               ? "half the mesh size"
                                                               : "half the time step";
     const bool joint = br_joint_describes(&of->joint);

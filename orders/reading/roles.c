@@ -158,6 +158,8 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
         return br_no_memory(err, "the table");
     c->name = name;
     c->unit = split_unit(name);
+    if (!c->unit && !(c->unit = br_unit_behind_slash(name)))
+        strcpy(name, text);
     weigh_name(c);
     for (size_t j = 0; j < r->columns && c->unit && c->named < BR_USUAL_NAME; j++)
         if (j != i && r->fields->heading[j] &&
@@ -873,7 +875,8 @@ static enum br_status check_swap(struct br_roles *r, const struct br_candidate *
     c.log_z = br_store_take(&r->store, r->rows + 1, sizeof *c.log_z);
     if (!c.log_z || !order)
         return br_no_memory(err, "the table");
-    for (; size && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
+    const bool count = size && size->is_whole && !over->size.states->is_size; /* errors are none */
+    for (; size && !count && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
         if (r->column[i].role != BR_ROLE_ERROR || r->column[i].by_hand || over->agrees_with_rates ||
             br_evidence_halves(r, over, sorted))
             continue;
