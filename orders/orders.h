@@ -231,7 +231,8 @@ struct br_orders_forecast br_orders_foresee(const struct br_orders *orders,
 double br_orders_next(const struct br_orders *orders, const struct br_orders_forecast *f,
                       double *given);
 
-/* The size that an error, or GCI, needs, as it is stated. */
+/* The size that an error, or GCI, needs, as it is stated. NaN: more than 100 times as fine as the
+ * finest, or as many cells. */
 double br_orders_needed(const struct br_orders *orders, const struct br_orders_forecast *f,
                         double wanted);
 

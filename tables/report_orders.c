@@ -132,14 +132,6 @@ static void say_orders(struct br_document *d, const struct br_orders *o,
         br_put_more(d, "%swith a floor of %.1e", separator(first), of->joint.floor);
 }
 
-/* A size as its column states it: a count has all its digits. */
-static const char *given_text(const struct br_orders *o, enum br_axis axis, double given,
-                              char text[32])
-{
-    snprintf(text, 32, o->numbers->column[axis]->is_size ? "%.4g" : "%.0f", given);
-    return text;
-}
-
 /* What the next finer size would give. */
 static void say_next(struct br_document *d, const struct br_orders *o,
                      const struct br_quantity_orders *of, bool *first)
@@ -149,9 +141,9 @@ static void say_next(struct br_document *d, const struct br_orders *o,
     const double next = f.line ? br_orders_next(o, &f, &given) : (double)NAN;
     if (!f.line)
         return;
-    br_put_more(d, "%s%s = %s would give ", separator(first),
-                o->numbers->column[f.line->axis]->name,
-                given_text(o, f.line->axis, given, (char[32]){0}));
+    const struct br_resolution_column *column = o->numbers->column[f.line->axis];
+    br_put_more(d, "%s%s = %s would give ", separator(first), column->name,
+                br_numbers_text(column, given, (char[32]){0}));
     if (quantity_of(o, of)->is_value)
         br_put_more(d, "a GCI of %.2g %%", 100 * next);
     else
@@ -454,7 +446,7 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
         {.key = "quantity", .flags = BR_VARIES},
         {.key = "in", .flags = BR_VARIES},
         {.key = "at", .flags = BR_VARIES},
-        {.key = "finest", .heading = "finest of three", .format = "%.10g"},
+        {.key = "finest", .heading = "finest of three"},
         {.key = "p", .format = "%.4f"},
         {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
@@ -469,10 +461,13 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
                 const struct br_gci *g = &line->limits.triple[t];
                 BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                            br_text(br_axis_letters[line->axis]), br_text(line->at),
-                           br_number(line->finest_of[t]), br_number(g->order),
-                           br_number(g->fine.index), br_number(g->asymptotic),
-                           br_number(br_gci_limited(g, o->formal)),
-                           br_text(br_sequence_text(g->sequence)));
+                           br_number(line->finest_of[t]));
+                br_put_shown(d, "%s",
+                             br_numbers_text(o->numbers->column[line->axis], line->finest_of[t],
+                                             (char[32]){0}));
+                BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
+                             br_number(g->asymptotic), br_number(br_gci_limited(g, o->formal)),
+                             br_text(br_sequence_text(g->sequence)));
             }
         }
 }
@@ -493,13 +488,14 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
         const struct br_orders_forecast f = br_orders_foresee(o, &o->of[i]);
         double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
         for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
+            const struct br_resolution_column *column = o->numbers->column[f.line->axis];
             const double size = br_orders_needed(o, &f, wanted);
+            if (isnan(size))
+                break;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
-                       br_number(wanted), br_text(o->numbers->column[f.line->axis]->name),
-                       br_number(size));
-            br_put_shown(d, "%s = %s", o->numbers->column[f.line->axis]->name,
-                         given_text(o, f.line->axis, size, (char[32]){0}));
+                       br_number(wanted), br_text(column->name), br_number(size));
+            br_put_shown(d, "%s = %s", column->name, br_numbers_text(column, size, (char[32]){0}));
         }
     }
 }

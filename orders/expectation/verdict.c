@@ -350,7 +350,7 @@ static void name_axis(struct br_case *c, bool of_time, bool lost)
                      b = count_at(c, of_time, lost ? 1 : count - 2);
         const bool more = i == (lost ? 0 : count);
         const double size = more ? floor(a * a / b) : count_at(c, of_time, lost ? i - 1 : i);
-        br_append(c->reason, sizeof c->reason, "%s%.6g", i ? ", " : "",
+        br_append(c->reason, sizeof c->reason, of_time ? "%s%.6g" : "%s%.15g", i ? ", " : "",
                   of_time ? c->duration / size : size);
     }
     br_append(c->reason, sizeof c->reason, of_time ? " s" : "");

@@ -56,3 +56,9 @@ double br_numbers_given(const struct br_resolution_column *column, double z, dou
     }
     return fabs(given - whole) <= fmin(1e-9 * given, 0.1) ? whole : ceil(given);
 }
+
+char *br_numbers_text(const struct br_resolution_column *column, double given, char text[32])
+{
+    snprintf(text, 32, column->is_size ? "%.6g" : "%.15g", given);
+    return text;
+}
