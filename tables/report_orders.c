@@ -582,7 +582,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at));
             put_order(d, &c->order);
-            BR_PUT_CELLS(d, br_count(c->points), br_count(c->used), br_text(c->note));
+            BR_PUT_CELLS(d, br_count(c->points), br_count(c->used),
+                         br_text(br_case_note(c, (char[BR_CASE_NOTE]){0})));
         }
     br_put_across(d);
 

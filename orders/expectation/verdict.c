@@ -508,17 +508,22 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     if (isnan(c->expected.order))
         find_constants(c);
     list_left_out(c);
-    if (c->law)
-        br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
-                  c->law);
     if (isfinite(c->factor.value)) {
         char text[64];
-        br_append(c->note, sizeof c->note, ": one more of 1/%s divides them by %s",
-                  c->kind == BR_VERIFY_TIME ? "k" : "h",
+        br_append(c->note, sizeof c->note, "%sone more of 1/%s divides the errors by %s",
+                  c->note[0] ? "; " : "", c->kind == BR_VERIFY_TIME ? "k" : "h",
                   br_order_text(&c->factor, text, sizeof text));
     }
     note_drift(c);
     return status;
+}
+
+char *br_case_note(const struct br_case *c, char text[BR_CASE_NOTE])
+{
+    snprintf(text, BR_CASE_NOTE, "%s", c->note);
+    if (c->law)
+        br_append(text, BR_CASE_NOTE, "%sthe errors also show %s", *text ? "; " : "", c->law);
+    return text;
 }
 
 void br_case_take_order(struct br_case *c, struct br_estimate order, double constant)
