@@ -495,7 +495,11 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
                        br_number(wanted), br_text(column->name), br_number(size));
-            br_put_shown(d, "%s = %s", column->name, br_numbers_text(column, size, (char[32]){0}));
+            if (column->is_size) /* foretold: no more digits are known */
+                br_put_shown(d, "%s = %.4g", column->name, size);
+            else
+                br_put_shown(d, "%s = %s", column->name,
+                             br_numbers_text(column, size, (char[32]){0}));
         }
     }
 }

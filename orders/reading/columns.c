@@ -59,6 +59,7 @@ double br_numbers_given(const struct br_resolution_column *column, double z, dou
 
 char *br_numbers_text(const struct br_resolution_column *column, double given, char text[32])
 {
-    snprintf(text, 32, column->is_size ? "%.6g" : "%.15g", given);
+    const bool whole = given == floor(given) && given < 1e17;
+    snprintf(text, 32, column->is_size ? "%.6g" : whole ? "%.17g" : "%.15g", given);
     return text;
 }
