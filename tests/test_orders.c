@@ -150,6 +150,9 @@ TEST(test_lists)
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
     assert_false(br_lists(",", ""));
+    assert_false(br_lists("c", NULL));
+    refuse_with("10,4.2e-2\n20,1.1e-2\n40,1.8e-3\n80,1.3e-4\nn,l2\n",
+                &(struct columns){NULL, "l2", 2, NULL}, "t.csv");
 }
 
 /* Tables as programs write them: the order of one column, and what was taken for what. */
