@@ -47,8 +47,12 @@ double br_orders_next(const struct br_orders *o, const struct br_orders_forecast
 double br_orders_needed(const struct br_orders *o, const struct br_orders_forecast *f,
                         double wanted)
 {
-    return br_numbers_given(o->numbers->column[f->line->axis],
-                            f->z * pow(wanted / f->number, 1 / f->order), o->numbers->dimension);
+    static const double most = 100; /* times finer, or as many cells: nobody knows more */
+    const struct br_resolution_column *column = o->numbers->column[f->line->axis];
+    const double part = pow(wanted / f->number, 1 / f->order);
+    const double growth = pow(part, column->is_volume ? -o->numbers->dimension : -1);
+    return growth <= most ? br_numbers_given(column, f->z * part, o->numbers->dimension)
+                          : (double)NAN;
 }
 
 double br_orders_in_dimension(const struct br_orders *o, double order, double dimension)

@@ -10,9 +10,10 @@ void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_r
                      enum br_axis axis, char text[64])
 {
     const bool by_list = isnan(row->given[axis]) && numbers->listed[axis];
-    snprintf(text, 64, "%s%s = %.6g", by_list ? "the run of " : "",
-             (by_list ? numbers->listed : numbers->column)[axis]->name,
-             (by_list ? row->listed : row->given)[axis]);
+    const struct br_resolution_column *column = (by_list ? numbers->listed : numbers->column)[axis];
+    char number[32];
+    snprintf(text, 64, "%s%s = %s", by_list ? "the run of " : "", column->name,
+             br_numbers_text(column, (by_list ? row->listed : row->given)[axis], number));
 }
 
 enum { CELL = 2 * 64 + 2 }; /* bytes of a cell's name */

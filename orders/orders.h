@@ -83,6 +83,7 @@ struct br_numbers {
     const struct br_joint_fit *fitted; /* their joint fit, where it is known; NULL: it is not */
     double dimension;                  /* of the mesh, where unknowns or cells are counted */
     bool assumed;                      /* nobody stated it */
+    bool samples;                      /* n counts samples, and not elements */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
@@ -230,7 +231,8 @@ struct br_orders_forecast br_orders_foresee(const struct br_orders *orders,
 double br_orders_next(const struct br_orders *orders, const struct br_orders_forecast *f,
                       double *given);
 
-/* The size that an error, or GCI, needs, as it is stated. */
+/* The size that an error, or GCI, needs, as it is stated. NaN: more than 100 times as fine as the
+ * finest, or as many cells. */
 double br_orders_needed(const struct br_orders *orders, const struct br_orders_forecast *f,
                         double wanted);
 

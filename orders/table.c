@@ -81,6 +81,8 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     if (axis == BR_AXIS_SPACE) {
         n->dimension = size->dimension;
         n->assumed = r->assumed_dimension;
+        n->samples = !r->halves && r->column[size->column].name &&
+                     br_is_samples(r->column[size->column].name);
     }
     for (size_t i = 0; i < r->rows; i++) {
         if (r->dropped[i])
@@ -382,21 +384,22 @@ static enum br_status make_room(struct source *s, struct br_error *err)
 static enum br_status refuse_values(const struct source *s, struct br_error *err)
 {
     const struct br_role_column *found = NULL;
-    char why[400], name[200] = "NAME", where[80] = "", text[32];
+    char name[200], item[210] = "NAME", shell[240], where[80] = "", text[32], advice[400];
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
-        if (c->role != BR_ROLE_ASIDE || !c->why || !strstr(c->why, "--value"))
-            continue;
-        quoted(c->label, name);
-        found = c;
+        if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
+            found = c;
     }
+    if (found)
+        snprintf(item, sizeof item, strchr(found->label, ',') ? "\"%s\"" : "%s",
+                 quoted(found->label, name));
     for (size_t i = 0; found && i < s->roles.rows && !*where; i++)
         if (found->number[i] < 0)
             snprintf(where, sizeof where, ": %s has %g", br_row_place(&s->fields, i, text),
                      found->number[i]);
-    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known%s)",
-             name, where);
-    return br_roles_refuse(&s->roles, why, NULL, err);
+    snprintf(advice, sizeof advice, "--value %s studies it, if its limit is not known%s",
+             br_quoted(shell, sizeof shell, &br_for_shell, item), where);
+    return br_roles_refuse(&s->roles, "found no column of errors", advice, err);
 }
 
 static enum br_status take_all(struct source *s, struct br_error *err)

@@ -30,12 +30,11 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
 {
     const int assumed = (int)o->numbers->dimension;
     const char *name = o->numbers->column[BR_AXIS_SPACE]->name;
-    const bool cells = strcmp(name, "cells") == 0;
     bool first = true;
     br_put_more(d, " (%d-D assumed", assumed);
     if (assumed == 1)
         br_put_more(d, ", or %s along one side", name);
-    for (int other = cells ? 1 : 2; other <= 3; other++)
+    for (int other = 1; other <= 3; other++)
         if (other != assumed) {
             br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
                         br_orders_in_dimension(o, order, other));
@@ -51,6 +50,7 @@ static void say_meaning(struct br_document *d, const struct br_orders *o,
     static const char *const parts[] = {"half", "a quarter", "an eighth", "a sixteenth"};
     const char *finer = o->tied                               ? "half h and k"
                         : o->numbers->column[axis]->is_degree ? "twice the degree"
+                        : o->numbers->samples                 ? "twice the samples"
                         : axis == BR_AXIS_SPACE               ? "half the mesh size"
                                                               : "half the time step";
     const bool joint = br_joint_describes(&of->joint);
@@ -132,14 +132,6 @@ static void say_orders(struct br_document *d, const struct br_orders *o,
         br_put_more(d, "%swith a floor of %.1e", separator(first), of->joint.floor);
 }
 
-/* A size as its column states it: a count has all its digits. */
-static const char *given_text(const struct br_orders *o, enum br_axis axis, double given,
-                              char text[32])
-{
-    snprintf(text, 32, o->numbers->column[axis]->is_size ? "%.4g" : "%.0f", given);
-    return text;
-}
-
 /* What the next finer size would give. */
 static void say_next(struct br_document *d, const struct br_orders *o,
                      const struct br_quantity_orders *of, bool *first)
@@ -149,9 +141,9 @@ static void say_next(struct br_document *d, const struct br_orders *o,
     const double next = f.line ? br_orders_next(o, &f, &given) : (double)NAN;
     if (!f.line)
         return;
-    br_put_more(d, "%s%s = %s would give ", separator(first),
-                o->numbers->column[f.line->axis]->name,
-                given_text(o, f.line->axis, given, (char[32]){0}));
+    const struct br_resolution_column *column = o->numbers->column[f.line->axis];
+    br_put_more(d, "%s%s = %s would give ", separator(first), column->name,
+                br_numbers_text(column, given, (char[32]){0}));
     if (quantity_of(o, of)->is_value)
         br_put_more(d, "a GCI of %.2g %%", 100 * next);
     else
@@ -454,7 +446,7 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
         {.key = "quantity", .flags = BR_VARIES},
         {.key = "in", .flags = BR_VARIES},
         {.key = "at", .flags = BR_VARIES},
-        {.key = "finest", .heading = "finest of three", .format = "%.10g"},
+        {.key = "finest", .heading = "finest of three"},
         {.key = "p", .format = "%.4f"},
         {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
@@ -469,10 +461,13 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
                 const struct br_gci *g = &line->limits.triple[t];
                 BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                            br_text(br_axis_letters[line->axis]), br_text(line->at),
-                           br_number(line->finest_of[t]), br_number(g->order),
-                           br_number(g->fine.index), br_number(g->asymptotic),
-                           br_number(br_gci_limited(g, o->formal)),
-                           br_text(br_sequence_text(g->sequence)));
+                           br_number(line->finest_of[t]));
+                br_put_shown(d, "%s",
+                             br_numbers_text(o->numbers->column[line->axis], line->finest_of[t],
+                                             (char[32]){0}));
+                BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
+                             br_number(g->asymptotic), br_number(br_gci_limited(g, o->formal)),
+                             br_text(br_sequence_text(g->sequence)));
             }
         }
 }
@@ -493,13 +488,18 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
         const struct br_orders_forecast f = br_orders_foresee(o, &o->of[i]);
         double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
         for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
+            const struct br_resolution_column *column = o->numbers->column[f.line->axis];
             const double size = br_orders_needed(o, &f, wanted);
+            if (isnan(size))
+                break;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
-                       br_number(wanted), br_text(o->numbers->column[f.line->axis]->name),
-                       br_number(size));
-            br_put_shown(d, "%s = %s", o->numbers->column[f.line->axis]->name,
-                         given_text(o, f.line->axis, size, (char[32]){0}));
+                       br_number(wanted), br_text(column->name), br_number(size));
+            if (column->is_size) /* foretold: no more digits are known */
+                br_put_shown(d, "%s = %.4g", column->name, size);
+            else
+                br_put_shown(d, "%s = %s", column->name,
+                             br_numbers_text(column, size, (char[32]){0}));
         }
     }
 }
@@ -586,7 +586,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at));
             put_order(d, &c->order);
-            BR_PUT_CELLS(d, br_count(c->points), br_count(c->used), br_text(c->note));
+            BR_PUT_CELLS(d, br_count(c->points), br_count(c->used),
+                         br_text(br_case_note(c, (char[BR_CASE_NOTE]){0})));
         }
     br_put_across(d);
 

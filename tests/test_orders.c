@@ -384,7 +384,7 @@ static void describe(const struct br_numbers *n, char text[2000])
  * read, or why it is not. */
 static void read_kind(char *row)
 {
-    static const char refused[] = "refused: ", where[] = "where ";
+    static const char refused[] = "refused: ", where[] = "where ", value[] = "value ";
     char *by_hand = br_test_part(row);
     const char *expected = br_test_part(by_hand);
     const bool chooses = strncmp(by_hand, where, strlen(where)) == 0;
@@ -393,6 +393,8 @@ static void read_kind(char *row)
     q.table = br_test_unescape(row);
     if (chooses)
         q.where = by_hand + strlen(where);
+    else if (strncmp(by_hand, value, strlen(value)) == 0)
+        q.values = by_hand + strlen(value);
     else if (strcmp(by_hand, "-") != 0)
         q.columns = by_hand;
     struct br_numbers n;
@@ -816,6 +818,8 @@ TEST(test_finer)
     CLOSE(br_orders_next(&found.orders, &f, &given), .000771604931327125, 1e-12);
     CLOSE(given, 64, 0);
     CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 57, 0); /* 56.2 */
+    CLOSE(br_orders_needed(&found.orders, &f, f.number * 1.001e-4), 3199, 0);
+    assert_true(isnan(br_orders_needed(&found.orders, &f, f.number * .999e-4)));
     find("h,u\n1,1.1415926535897931\n.5,2.6415926535897931\n.25,3.0165926535897931\n"
          ".125,3.1103426535897931\n",
          "u"); /* pi - 2 h^2 */
@@ -837,6 +841,9 @@ TEST(test_finer)
     f = br_orders_foresee(&found.orders, &found.orders.of[0]);
     br_orders_next(&found.orders, &f, &given);
     CLOSE(given, 4096, 0);
+    assert_true(
+        isnan(br_orders_needed(&found.orders, &f, f.number * .99e-2))); /* 101 times as many */
+    CLOSE(br_orders_needed(&found.orders, &f, f.number * 1.024e-2), 100000, 0);
 }
 
 /* The number that a size was made of; of a size between two numbers, the larger one. */

@@ -93,6 +93,10 @@ struct br_case {
  * BR_NO_MEMORY. */
 enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err);
 
+/* The note, and the law that the errors also show; returns text. */
+enum { BR_CASE_NOTE = 640 };
+char *br_case_note(const struct br_case *c, char text[BR_CASE_NOTE]);
+
 /* Takes an order and a constant from elsewhere, the joint fit of a grid, which describes all
  * points: none is left out. */
 void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);

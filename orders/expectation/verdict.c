@@ -350,7 +350,7 @@ static void name_axis(struct br_case *c, bool of_time, bool lost)
                      b = count_at(c, of_time, lost ? 1 : count - 2);
         const bool more = i == (lost ? 0 : count);
         const double size = more ? floor(a * a / b) : count_at(c, of_time, lost ? i - 1 : i);
-        br_append(c->reason, sizeof c->reason, "%s%.6g", i ? ", " : "",
+        br_append(c->reason, sizeof c->reason, of_time ? "%s%.6g" : "%s%.15g", i ? ", " : "",
                   of_time ? c->duration / size : size);
     }
     br_append(c->reason, sizeof c->reason, of_time ? " s" : "");
@@ -510,17 +510,22 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     if (isnan(c->expected.order))
         find_constants(c);
     list_left_out(c);
-    if (c->law)
-        br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
-                  c->law);
     if (isfinite(c->factor.value)) {
         char text[64];
-        br_append(c->note, sizeof c->note, ": one more of 1/%s divides them by %s",
-                  c->kind == BR_VERIFY_TIME ? "k" : "h",
+        br_append(c->note, sizeof c->note, "%sone more of 1/%s divides the errors by %s",
+                  c->note[0] ? "; " : "", c->kind == BR_VERIFY_TIME ? "k" : "h",
                   br_order_text(&c->factor, text, sizeof text));
     }
     note_drift(c);
     return status;
+}
+
+char *br_case_note(const struct br_case *c, char text[BR_CASE_NOTE])
+{
+    snprintf(text, BR_CASE_NOTE, "%s", c->note);
+    if (c->law)
+        br_append(text, BR_CASE_NOTE, "%sthe errors also show %s", *text ? "; " : "", c->law);
+    return text;
 }
 
 void br_case_take_order(struct br_case *c, struct br_estimate order, double constant)

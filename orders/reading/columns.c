@@ -56,3 +56,10 @@ double br_numbers_given(const struct br_resolution_column *column, double z, dou
     }
     return fabs(given - whole) <= fmin(1e-9 * given, 0.1) ? whole : ceil(given);
 }
+
+char *br_numbers_text(const struct br_resolution_column *column, double given, char text[32])
+{
+    const bool whole = given == floor(given) && given < 1e17;
+    snprintf(text, 32, column->is_size ? "%.6g" : whole ? "%.17g" : "%.15g", given);
+    return text;
+}

@@ -31,4 +31,7 @@ double br_numbers_z(const struct br_resolution_column *column, double given, dou
 /* The number that states a size z, or the next finer whole one. */
 double br_numbers_given(const struct br_resolution_column *column, double z, double dimension);
 
+/* A number of the column as all outputs have it: a count with all its digits. Returns text. */
+char *br_numbers_text(const struct br_resolution_column *column, double given, char text[32]);
+
 #endif

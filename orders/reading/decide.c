@@ -7,6 +7,7 @@
 
 #include "base/quote.h"
 #include "base/words.h"
+#include "orders/limits/grid_convergence.h"
 #include "orders/reading/roles.h"
 
 /* Log odds, measured on tables whose sizes are known. */
@@ -185,13 +186,22 @@ static const char *shown_name(const struct br_roles *r, size_t column, char text
     return br_quoted(text, 80, &br_for_text, c->shown ? c->shown : c->label);
 }
 
-/* "h = N^(-1/2) from N" */
-static char *say_reading(const struct br_roles *r, const struct br_candidate *c, char text[TEXT])
+/* Whether a count of a volume gives the size only with a dimension that nobody stated. */
+static bool lacks_dimension(const struct br_roles *r, const struct br_candidate *c)
+{
+    return c->size.states->is_volume && !(r->wishes->dimension > 0);
+}
+
+/* "h = N^(-1/2)"; with_dimension: else "h = N^(-1/d)" */
+static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
+                         bool with_dimension, char text[TEXT])
 {
     char name[80];
     const struct br_resolution_column *s = c->size.states;
     shown_name(r, c->size.column, name);
-    if (s->is_volume && c->size.dimension > 1)
+    if (s->is_volume && !with_dimension)
+        snprintf(text, TEXT, "h = %s^(-1/d)", name);
+    else if (s->is_volume && c->size.dimension > 1)
         snprintf(text, TEXT, "h = %s^(-1/%g)", name, c->size.dimension);
     else if (s->is_size)
         snprintf(text, TEXT, "%s from %s", br_axis_letters[s->axis], name);
@@ -203,7 +213,7 @@ static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
     return text;
 }
 
-/* "--column 'N=cells' --dimension 2" */
+/* "--column 'N=cells' --dimension 1, 2 or 3" */
 static char *say_option(const struct br_roles *r, const struct br_candidate *c, char text[TEXT])
 {
     char name[80], item[120], quoted[160];
@@ -214,8 +224,8 @@ static char *say_option(const struct br_roles *r, const struct br_candidate *c, 
                  c->size.states->name);
         br_append(text, TEXT, "--column %s", br_quoted(quoted, sizeof quoted, &br_for_shell, item));
     }
-    if (c->size.states->is_volume && !(r->wishes->dimension > 0))
-        br_append(text, TEXT, "%s--dimension %g", *text ? " " : "", c->size.dimension);
+    if (lacks_dimension(r, c))
+        br_append(text, TEXT, "%s--dimension 1, 2 or 3", *text ? " " : "");
     return text;
 }
 
@@ -237,17 +247,66 @@ static size_t clearest_error(const struct contest *t, const struct br_candidate 
     return best;
 }
 
+/* The column of --value that has numbers on three meshes or more; BR_NO_ROW: there is none. */
+static size_t first_value(const struct contest *t, const struct br_candidate *c)
+{
+    for (size_t i = 0; i < t->roles->columns; i++)
+        if (i != c->size.column && t->roles->column[i].is_value && !t->roles->column[i].words)
+            return i;
+    return BR_NO_ROW;
+}
+
+/* The order of the three finest values of the first line; NaN: they have none. */
+static double order_of_values(const struct contest *t, const struct br_candidate *c, size_t value)
+{
+    double h[3], v[3];
+    size_t count = 0;
+    struct br_gci found;
+    for (size_t i = 0; t->sorted[i] != BR_NO_ROW; i++) {
+        const size_t row = t->sorted[i];
+        const double number = t->roles->column[value].number[row];
+        if (t->roles->line[row] != t->roles->line[t->sorted[0]] || isnan(number))
+            continue;
+        if (count == 3) {
+            memmove(h, h + 1, 2 * sizeof *h);
+            memmove(v, v + 1, 2 * sizeof *v);
+            count = 2;
+        }
+        h[count] = exp(c->log_z[row]);
+        v[count++] = number;
+        if (count > 1 && !(h[count - 1] < h[count - 2]))
+            return NAN;
+    }
+    if (count < 3)
+        return NAN;
+    br_gci(h, v, 3, &found);
+    return found.order;
+}
+
+/* The order that a candidate gives; NaN: no column shows one. */
+static double order_of(const struct contest *t, const struct br_candidate *c, size_t error)
+{
+    const size_t value = error == BR_NO_ROW ? first_value(t, c) : BR_NO_ROW;
+    br_decide_sort(t->roles, c, t->sorted);
+    return error != BR_NO_ROW   ? br_evidence_order(t->roles, c, t->sorted, error)
+           : value != BR_NO_ROW ? order_of_values(t, c, value)
+                                : (double)NAN;
+}
+
+/* "h = 1/N gives 2.00"; "h = cells^(-1/d) gives 0.95 for d = 1, 1.89 for 2, 2.84 for 3" */
 static char *say_order(const struct contest *t, const struct br_candidate *c, size_t error,
                        char text[TEXT])
 {
     char reading[TEXT];
-    say_reading(t->roles, c, reading);
-    br_decide_sort(t->roles, c, t->sorted);
-    if (error == BR_NO_ROW)
-        snprintf(text, TEXT, "%s", reading);
-    else
-        snprintf(text, TEXT, "%.300s gives %.2f", reading,
-                 br_evidence_order(t->roles, c, t->sorted, error));
+    const bool open = lacks_dimension(t->roles, c);
+    const double order = order_of(t, c, error);
+    snprintf(text, TEXT, "%.200s", say_reading(t->roles, c, !open, reading));
+    if (isnan(order))
+        return text;
+    br_append(text, TEXT, open ? " gives" : " gives %.2f", order);
+    for (int d = 1; d <= 3 && open; d++) /* h^p is N^(-p/d): the order goes with d */
+        br_append(text, TEXT, d == 1 ? " %.2f for d = %d" : ", %.2f for %d",
+                  d * order / c->size.dimension, d);
     return text;
 }
 
@@ -256,11 +315,17 @@ static enum br_status ask(const struct contest *t, const struct br_candidate *be
 {
     char a[TEXT], b[TEXT], option_a[TEXT], option_b[TEXT];
     const size_t error = clearest_error(t, best);
+    const char *path = t->roles->wishes->path;
     best = plainest(t, best);
     second = plainest(t, second);
+    say_order(t, best, error, a);
+    say_option(t->roles, best, option_a);
+    if (second->size.column == best->size.column && second->size.states == best->size.states)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: the sizes are not clear: %s: which dimension has the mesh? %s decides",
+                       path, a, option_a);
     return br_fail(err, BR_BAD_INPUT, "%s: the sizes are not clear: %s; %s: %s, or %s, decides",
-                   t->roles->wishes->path, say_order(t, best, error, a),
-                   say_order(t, second, error, b), say_option(t->roles, best, option_a),
+                   path, a, say_order(t, second, error, b), option_a,
                    say_option(t->roles, second, option_b));
 }
 
@@ -339,7 +404,7 @@ static enum br_status refuse_growth(const struct contest *t, const struct br_can
     return br_fail(
         err, BR_BAD_INPUT,
         "%s: the errors grow where %s (%s) gets finer: rates%s; --column '%s=%s', if %s is %s",
-        r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, reading), rates, name,
+        r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, true, reading), rates, name,
         best->size.states->is_size ? "n" : "h", name,
         best->size.states->is_size ? "a count" : "a size");
 }
@@ -356,7 +421,7 @@ static void assume(struct contest *t, const struct br_candidate *best,
     r->assumed_dimension |= dimension && t->axis == BR_AXIS_SPACE;
     say_option(r, best, option);
     br_append(r->assumed, sizeof r->assumed, "%s%s is assumed", *r->assumed ? "; " : "",
-              say_reading(r, best, reading));
+              say_reading(r, best, true, reading));
     if (second)
         br_append(r->assumed, sizeof r->assumed, " (%s)", say_order(t, second, error, other));
     if (best->contradicts_rates)
@@ -382,7 +447,7 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
     }
     if (best->odds < least_odds && best->contradicts_rates) {
         snprintf(why, sizeof why, "the table has other rates than %s gives",
-                 say_reading(r, best, reading));
+                 say_reading(r, best, true, reading));
         return br_roles_refuse(r, why, NULL, err);
     }
     if (best->odds < least_odds)

@@ -16,7 +16,7 @@ static const struct {
     const char *names;
 } of_sizes[] = {
     {"h", 5,
-     " h dx dy \xce\x94x deltax meshsize meshwidth elementsize elsize cellsize gridspacing meshspacing "
+     " h dx dy \xce\x94x \xe2\x88\x86x deltax meshsize meshwidth elementsize elsize cellsize gridspacing meshspacing "
      "spacing hmax maxh hmin minh hmean havg hx hy meshh gridwidth cellwidth "
      "steph stepwidth elementlength lc gitterweite maschenweite "},
     {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh "},
@@ -48,7 +48,7 @@ static const struct {
     {"cells", 1.75, " grid mesh gridsize size volumes ncell ne "},
     {"k", 4, " k "},
     {"dt", 4,
-     " dt \xce\x94t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "},
+     " dt \xce\x94t \xe2\x88\x86t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "},
     {"steps", 4, " steps nt nsteps timesteps numsteps ntimesteps numberofsteps stepcount "},
 };
 
@@ -213,6 +213,15 @@ static const char *formula_of(const char *name)
     return NULL;
 }
 
+static bool is_unit_of(enum br_axis axis, const char *unit)
+{
+    return unit &&
+           lists(axis == BR_AXIS_SPACE ? " m dm mm cm km um nm pm ft in deg \xc2\xb5m \xce\xbcm "
+                                         "metres meters "
+                                       : " s ms us ns \xc2\xb5s \xce\xbcs ps min ",
+                 unit);
+}
+
 /* "grid_spacing_m": without the unit of length or time at its end. False: it has none. */
 static bool without_unit(const char *name, char text[LONGEST])
 {
@@ -223,7 +232,7 @@ static bool without_unit(const char *name, char text[LONGEST])
         return false;
     plain(end, word);
     snprintf(text, LONGEST, "%.*s", (int)(end - name), name);
-    return lists(" m mm cm km um nm s ms us ns ", word);
+    return is_unit_of(BR_AXIS_SPACE, word) || is_unit_of(BR_AXIS_TIME, word);
 }
 
 /* "normalized spacing", "average cell width". */
@@ -244,10 +253,36 @@ static bool has_spacing(const char *name)
 static bool is_length(const char *name, const char *unit)
 {
     double most = 0;
-    char text[LONGEST];
+    char text[LONGEST], word[LONGEST], last[LONGEST] = "";
     plain(name, text);
-    return unit && lists(" m mm cm km um nm deg \xc2\xb5m ", unit) &&
-           (listed_odds(text, "h", &most) > 0 || lists(" resolution step ", text));
+    while (next_word(&name, word))
+        strcpy(last, word);
+    return is_unit_of(BR_AXIS_SPACE, unit) &&
+           (listed_odds(text, "h", &most) > 0 || lists(" step basesize ", text) ||
+            strcmp(last, "resolution") == 0);
+}
+
+char *br_unit_behind_slash(char *name)
+{
+    char unit[LONGEST], *slash = strrchr(name, '/');
+    static const struct {
+        const char *column;
+        enum br_axis axis;
+    } sizes[] = {{"h", BR_AXIS_SPACE}, {"dt", BR_AXIS_TIME}, {"k", BR_AXIS_TIME}};
+    if (!slash || slash == name)
+        return NULL;
+    char *at = slash + 1 + strspn(slash + 1, " {$\\");
+    at += strncmp(at, "mathrm{", 7) == 0 ? 7 : strncmp(at, "text{", 5) == 0 ? 5 : 0;
+    at[strcspn(at, " }$")] = *slash = '\0';
+    snprintf(unit, sizeof unit, "%s", at);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        if (is_unit_of(sizes[i].axis, unit) &&
+            br_name_odds(name, unit, br_resolution_column_find(sizes[i].column)) >= BR_USUAL_NAME) {
+            while (slash[-1] == ' ')
+                *--slash = '\0';
+            return at;
+        }
+    return NULL;
 }
 
 double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column)
@@ -289,6 +324,13 @@ bool br_is_gap(const char *text)
                " \xce\xb5 eps epsilon diverged diverges div notconverged noconvergence nc fail failed "
                "failure dnf oom timeout tbd ",
                small);
+}
+
+bool br_is_samples(const char *name)
+{
+    char text[LONGEST];
+    without_fill(name, text);
+    return lists(" samples nsamples paths npaths ", text);
 }
 
 bool br_is_coefficient(const char *name)

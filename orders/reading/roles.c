@@ -10,6 +10,8 @@
 #include "base/quote.h"
 #include "base/words.h"
 
+enum { LONGEST_ADVICE = 400 };
+
 static const char *field_at(const struct br_roles *r, size_t row, size_t column)
 {
     return r->fields->field[row * r->columns + column];
@@ -28,38 +30,90 @@ char *br_row_place(const struct br_fields *f, size_t row, char text[32])
     return text;
 }
 
-enum br_status br_roles_refuse(const struct br_roles *r, const char *why, const char *word,
-                               struct br_error *err)
+/* Whether the numbers of a column rise, or fall, from each row of a case to its next one. */
+static bool is_monotone(const struct br_roles *r, const struct br_role_column *c)
+{
+    bool rises = c->number && c->numbers > 1 && !c->words, falls = rises;
+    double before = NAN;
+    for (size_t i = 0; i < r->rows && (rises || falls); i++) {
+        if (isnan(c->number[i]))
+            continue;
+        rises &= !(before >= c->number[i]);
+        falls &= !(before <= c->number[i]);
+        before = c->number[i];
+    }
+    return rises || falls;
+}
+
+/* The column that may be a size most likely: of numbers that are monotone and have no other name,
+ * or of numbers. */
+static const struct br_role_column *likely_size(const struct br_roles *r)
+{
+    const struct br_role_column *best = NULL;
+    int most = -1;
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        const int rank = (c->numbers && !c->words ? 1 : 0) +
+                         (c->least > 0 && is_monotone(r, c) ? 2 : 0) +
+                         (c->kind == BR_KIND_UNKNOWN ? 1 : 0);
+        if (!c->shown || rank <= most)
+            continue;
+        most = rank;
+        best = c;
+    }
+    return best;
+}
+
+static void list_headings(const struct br_roles *r, char names[300])
+{
+    char name[80];
+    *names = '\0';
+    for (size_t i = 0; i < r->columns; i++) {
+        if (!r->column[i].shown)
+            continue;
+        br_quoted(name, sizeof name, &br_for_text, r->column[i].shown);
+        if (strlen(names) + strlen(name) + 8 < 300)
+            br_append(names, 300, "%s%s", names[0] ? ", " : "", name);
+        else if (!strstr(names, ", ..."))
+            br_append(names, 300, ", ...");
+    }
+}
+
+/* How to name a column, "--column 'dx=h' says what a column is", and what a word may mean. */
+static void advise_column(const struct br_roles *r, const char *word, char text[LONGEST_ADVICE])
 {
     enum { MOST = 64 };
-    const char *headings[MOST];
+    const char *headings[MOST] = {0};
     size_t count = 0;
-    char names[300] = "", name[80], first[80] = "", suggestion[BR_SUGGESTION] = "";
-    for (size_t i = 0; i < r->columns; i++) {
-        const char *shown = r->fields->heading ? r->fields->heading[i] : NULL;
-        if (!shown)
-            continue;
-        br_quoted(name, sizeof name, &br_for_text, shown);
-        if (strlen(names) + strlen(name) + 8 < sizeof names)
-            br_append(names, sizeof names, "%s%s", names[0] ? ", " : "", name);
-        else if (!strstr(names, ", ..."))
-            br_append(names, sizeof names, ", ...");
-        if (!*first)
-            strcpy(first, name);
-        if (count < MOST)
-            headings[count++] = shown;
-    }
+    char name[80], item[90], quoted[120], suggestion[BR_SUGGESTION] = "";
+    const struct br_role_column *size = likely_size(r);
+    for (size_t i = 0; i < r->columns && count < MOST; i++)
+        if (r->column[i].shown)
+            headings[count++] = r->column[i].shown;
     if (word)
         br_suggestion(word, headings, count, suggestion);
+    snprintf(item, sizeof item, "%s=h",
+             size ? br_quoted(name, sizeof name, &br_for_text, size->shown) : "1");
+    snprintf(text, LONGEST_ADVICE,
+             "--column %s says what a column is (h, n, dofs, cells, points, interior, level, k, "
+             "dt, steps, degree, std or aside)%s",
+             br_quoted(quoted, sizeof quoted, &br_for_shell, item), suggestion);
+}
+
+enum br_status br_roles_refuse(const struct br_roles *r, const char *why, const char *advice,
+                               struct br_error *err)
+{
+    char names[300], usual[LONGEST_ADVICE];
     const size_t line = r->fields->heading_line ? r->fields->heading_line : 1;
-    return count
-               ? br_fail(err, BR_BAD_INPUT,
-                         "%s:%zu: %s among %s; --column '%s=h' says what a column is (h, n, dofs, "
-                         "cells, points, interior, level, k, dt, steps, degree, std or aside)%s",
-                         r->wishes->path, line, why, names, first, suggestion)
-               : br_fail(err, BR_BAD_INPUT,
-                         "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s",
-                         r->wishes->path, line, why, suggestion);
+    list_headings(r, names);
+    if (!*names)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns",
+                       r->wishes->path, line, why);
+    if (!advice)
+        advise_column(r, NULL, usual);
+    return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s among %s; %s", r->wishes->path, line, why, names,
+                   advice ? advice : usual);
 }
 
 /* ---- names ---- */
@@ -104,6 +158,8 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
         return br_no_memory(err, "the table");
     c->name = name;
     c->unit = split_unit(name);
+    if (!c->unit && !(c->unit = br_unit_behind_slash(name)))
+        strcpy(name, text);
     weigh_name(c);
     for (size_t j = 0; j < r->columns && c->unit && c->named < BR_USUAL_NAME; j++)
         if (j != i && r->fields->heading[j] &&
@@ -135,10 +191,11 @@ static size_t find_column(const struct br_roles *r, const char *text, size_t len
 static enum br_status refuse_column(const struct br_roles *r, const char *option, const char *text,
                                     size_t length, struct br_error *err)
 {
-    char why[120], word[60];
+    char why[120], word[60], advice[LONGEST_ADVICE];
     snprintf(word, sizeof word, "%.*s", length < 59 ? (int)length : 59, text);
     snprintf(why, sizeof why, "%s: found no column '%s'", option, word);
-    return br_roles_refuse(r, why, word, err);
+    advise_column(r, word, advice);
+    return br_roles_refuse(r, why, advice, err);
 }
 
 /* Names a column as an item of --column says: its heading or position, '=', its name or what it
@@ -816,7 +873,8 @@ static enum br_status check_swap(struct br_roles *r, const struct br_candidate *
     c.log_z = br_store_take(&r->store, r->rows + 1, sizeof *c.log_z);
     if (!c.log_z || !order)
         return br_no_memory(err, "the table");
-    for (; size && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
+    const bool count = size && size->is_whole && !over->size.states->is_size; /* errors are none */
+    for (; size && !count && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
         if (r->column[i].role != BR_ROLE_ERROR || r->column[i].by_hand || over->agrees_with_rates ||
             br_evidence_halves(r, over, sorted))
             continue;

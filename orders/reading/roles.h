@@ -42,6 +42,13 @@ bool br_is_coefficient(const char *name);
 /* Log odds that a column of this name and unit (NULL: none) states a resolution in this way. */
 double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column);
 
+/* The unit in "dx/m", which ISO and DIN write so, and cuts it off: of a length or a time that is
+ * called a size, and of nothing else. NULL: there is none, and the name may have changed. */
+char *br_unit_behind_slash(char *name);
+
+/* Whether a name is that of a number of samples, which is no number of elements. */
+bool br_is_samples(const char *name);
+
 /* Whether a field says that there is no number: "diverged". */
 bool br_is_gap(const char *text);
 
@@ -125,9 +132,8 @@ enum br_status br_roles_find(const struct br_fields *fields, const struct br_tab
                              struct br_roles *roles, struct br_error *err);
 void br_roles_clear(struct br_roles *roles); /* accepts zeros */
 
-/* Refuses the table: why, its headings, and how to name columns. word: an unknown heading, or NULL.
- */
-enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
+/* Refuses the table: why, its headings, and what helps (NULL: how to name columns). */
+enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *advice,
                                struct br_error *err);
 
 /* "line 3"; "row 2" of a source without lines. Returns text. */
