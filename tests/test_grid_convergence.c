@@ -373,8 +373,8 @@ TEST(test_scatter)
                         IS_NAN(limits.triple[i].fine.index);
                 br_limits_clear(&limits);
             }
-            assert_true(s < 2 ? scatter > 0.96 * TRIALS : scatter < 0.02 * TRIALS);
-            if (!(diverges < 0.02 * TRIALS && stated > 0.94 * TRIALS))
+            assert_true(s < 2 ? (double)scatter > 0.96 * TRIALS : (double)scatter < 0.02 * TRIALS);
+            if (!((double)diverges < 0.02 * TRIALS && (double)stated > 0.94 * TRIALS))
                 fail_msg("%zu values, slope %g: %zu diverge, %zu stated, %zu scatter", count,
                          slopes[s], diverges, stated, scatter);
             if (!((double)right >= 0.91 * (double)stated))
