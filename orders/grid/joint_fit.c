@@ -578,6 +578,7 @@ static const double waves = 0.7, exact = 1e-4;
  * 1982), where they are wider. */
 static void widen_along(struct search *s, struct candidate *c, int axis)
 {
+    static const double off_the_end = 0.9;
     int unknown[BR_UNKNOWNS];
     double sum[BR_UNKNOWNS] = {0}, squares[BR_UNKNOWNS] = {0}, groups = 0, whole[BR_UNKNOWNS];
     in_units(s, &c->trial, whole);
@@ -593,6 +594,7 @@ static void widen_along(struct search *s, struct candidate *c, int axis)
             continue;
         struct br_joint_trial without = c->trial;
         without.sum = INFINITY;
+        without.value[BR_THETA] *= off_the_end; /* where it is 1, r has no slope to leave by */
         if (rest.count > unknowns)
             br_joint_descend(&rest, &without);
         double value[BR_UNKNOWNS];
