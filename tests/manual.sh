@@ -46,4 +46,10 @@ for list in "$BEAMRATE_DATA"/debian/*.install; do
         failures=$((failures + 1))
     done <"$list"
 done
+# And each program is in a package.
+for program in $(grep -oE '/bin/[a-z-]+"' <<<"$installed" | tr -d '"' | sort -u); do
+    grep -qx "usr$program" "$BEAMRATE_DATA"/debian/*.install && continue
+    echo "debian: usr$program is in no package"
+    failures=$((failures + 1))
+done
 [ "$failures" -eq 0 ]
