@@ -13,7 +13,7 @@ const char *br_law_text(enum br_law law)
     return texts[law];
 }
 
-const struct br_priors br_priors = {
+BR_PRIOR_CONST struct br_priors br_priors = {
 #define X(name, value, why) .name = value,
     BR_PRIOR_LIST(X)
 #undef X
@@ -30,7 +30,7 @@ const struct br_priors br_priors = {
         law, s, low, high, (prior)*BR_PRIOR_SCALE, curve, why \
     }
 
-const struct br_family br_families[BR_FAMILIES] = {
+BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES] = {
     NEXT_TERM(0.5, 0.1, "half powers: singular data, boundary layers of time steps"),
     NEXT_TERM(1, 0.4, "the usual next power"),
     NEXT_TERM(1.5, 0.08, "half powers"),
@@ -67,26 +67,28 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
         b.correction = log1p(t);
-        b.change = t / (1 + t);
+        b.slope = b.change = t / (1 + t);
         break;
     case BR_LAW_LOCKING:
         b.correction = -log1p(t);
-        b.change = t / (1 + t);
+        b.slope = b.change = t / (1 + t);
         break;
     case BR_LAW_CANCEL: /* a difference of two terms scatters more, relative to itself, than each */
         b.correction = log(fabs(1 - t));
         b.weight = fmin(1, (1 - t) * (1 - t) / (1 + t * t)) + 1e-12;
         b.change = fmin(1, t);
+        b.slope = t / fabs(1 - t);
         b.density = true;
         break;
     case BR_LAW_SQUARES:
         b.correction = 0.5 * log1p(t * t);
-        b.change = t * t / (1 + t * t);
+        b.slope = b.change = t * t / (1 + t * t);
         break;
     case BR_LAW_LOGARITHM:
         t = parameter - at->log_z;
         b.correction = t > 0.1 ? f->s * log(t) : (double)NAN;
         b.change = 0.05;
+        b.slope = fabs(f->s) * parameter / t;
         break;
     case BR_LAW_FLOOR:
     case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
@@ -94,12 +96,14 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
         b.correction = t < 1 ? -log1p(-t) : (double)NAN;
         b.weight = (1 - t) * (1 - t);
         b.change = fabs(t) / (1 + fabs(t));
+        b.slope = fabs(t) / (1 - t);
         break;
     case BR_LAW_FLOOR_SQUARES:
         t = parameter * at->finest;
         b.correction = t < 1 ? -0.5 * log1p(-t * t) : (double)NAN;
         b.weight = (1 - t * t) * (1 - t * t);
         b.change = t * t;
+        b.slope = t * t / (1 - t * t);
         break;
     default:
         break;

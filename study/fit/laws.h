@@ -33,6 +33,11 @@ enum br_law {
         BR_LAWS
 };
 
+/* The lab changes priors, and measures what becomes of the answers. */
+#ifndef BR_PRIOR_CONST
+#define BR_PRIOR_CONST const
+#endif
+
 const char *br_law_text(enum br_law law);
 
 /* A law with its s, and the parameter: even in its logarithm from low to high. It is a z^s at the
@@ -45,7 +50,7 @@ struct br_family {
     const char *why;
 };
 enum { BR_FAMILIES = 36 };
-extern const struct br_family br_families[BR_FAMILIES];
+extern BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES];
 
 /* X(name, value, why): all other priors. Each was chosen on seeds that no published table uses. */
 #define BR_PRIOR_LIST(X)                                                                           \
@@ -85,7 +90,7 @@ struct br_priors {
     BR_PRIOR_LIST(X)
 #undef X
 };
-extern const struct br_priors br_priors;
+extern BR_PRIOR_CONST struct br_priors br_priors;
 
 /* A size z over the finest one, and the error there, as far as a law needs them. */
 struct br_law_place {
@@ -99,6 +104,7 @@ struct br_law_bend {
     double correction;
     double weight; /* of log e - correction, over that of log e: the inverse of a variance */
     double change; /* how large the correction is, 0 to 1 */
+    double slope;  /* of the correction over the logarithm of the parameter, its magnitude */
     bool density;  /* whether the density of log e has the weight in it */
 };
 struct br_law_bend br_law_bend(const struct br_family *family, double parameter,

@@ -12,10 +12,12 @@
 #include "study/fit/line_order.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The middle of a cell of parameters (below) describes the whole cell to about this. */
-static const double cell_scatter = 4e-3;
+static const double cell_scatter = 8e-3;
 
 /* ---- rows ---- */
 
@@ -25,6 +27,7 @@ struct rows {
     double *z, *x, *y;     /* x, y: of the regression, slope p */
     double *ratio;         /* z_against / z */
     double *given;         /* the weight that is given, relative; 1: none is */
+    double *log_given;     /* half its logarithm */
     double *rounded;       /* the variance of y by its printed digits; 0: it is not rounded */
     double order;          /* of the regression over all rows */
     double *bent, *weight; /* of a law: y - correction; relative to 1/sigma^2 */
@@ -123,14 +126,27 @@ struct part {
     size_t first, last, outlier;
 };
 
+/* The windows from row first to first_most, and to row last to last_most, that matter, with the
+ * logarithm of the largest weight in them, and the misfit of that one; outlier: whether a row
+ * inside may not count. */
+struct box {
+    double best, misfit;
+    size_t first, first_most, last, last_most;
+    bool outlier;
+};
+
 struct mixture {
     struct part *part; /* owned */
+    struct box within; /* the windows to try */
+    struct box found;  /* out, if only_best: those that matter */
+    size_t rows;
     size_t count, room;
     double best;   /* the largest logarithm of a weight */
     double misfit; /* of the part that has it */
     double far;    /* of values: x of the finest one; NaN: they are errors */
     double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
     double prior;  /* logarithm of that of the scatter */
+    double within_cell; /* what a parameter that stands for others leaves of them, in logarithms */
     const double *log_gamma; /* by degrees of freedom, of half of them */
     bool few;                /* of two differences: their order is its prior alone */
     double keeps;            /* logarithm of weights below the best that are kept */
@@ -140,10 +156,34 @@ struct mixture {
 /* Parts of less weight than e^-8.5 of the best are not kept. */
 static const double kept = 8.5;
 
+static void widen(struct box *box, const struct part *p, size_t rows)
+{
+    if (p->weight > box->best) {
+        box->best = p->weight;
+        box->misfit = p->misfit;
+    }
+    box->first = p->first < box->first ? p->first : box->first;
+    box->first_most = p->first > box->first_most ? p->first : box->first_most;
+    box->last = p->last < box->last ? p->last : box->last;
+    box->last_most = p->last > box->last_most ? p->last : box->last_most;
+    box->outlier = box->outlier || p->outlier < rows;
+}
+
+static void join(struct box *box, const struct box *other)
+{
+    box->first = other->first < box->first ? other->first : box->first;
+    box->first_most = other->first_most > box->first_most ? other->first_most : box->first_most;
+    box->last = other->last < box->last ? other->last : box->last;
+    box->last_most = other->last_most > box->last_most ? other->last_most : box->last_most;
+    box->outlier = box->outlier || other->outlier;
+}
+
 static void add_part(struct mixture *all, const struct part *p)
 {
     if (!(p->weight > all->best - all->keeps))
         return;
+    if (all->only_best)
+        widen(&all->found, p, all->rows);
     if (p->weight > all->best) {
         all->best = p->weight;
         all->misfit = p->misfit;
@@ -178,7 +218,7 @@ static int by_mean(const void *a, const void *b)
 /* Of parts with less than a share of the whole, one stands for as many as make that share. */
 static void thin(struct mixture *all)
 {
-    static const double share = 5e-4;
+    static const double share = 1e-3;
     size_t large = 0, count;
     while (large < all->count && all->part[large].weight >= share)
         large++;
@@ -215,7 +255,7 @@ static void normalise(struct mixture *all)
 static double student_below(double t, double freedom)
 {
     const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
-    const bool odd = fmod(freedom, 2) > 0;
+    const bool odd = (int)freedom % 2 == 1;
     double term = odd ? sqrt(square) : 1, sum = 0;
     for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
         sum += term;
@@ -234,9 +274,16 @@ static double probability_below(const struct mixture *all, double order)
     return sum;
 }
 
-/* By false position (Illinois), each third step a bisection. */
-static double quantile(const struct mixture *all, double share)
+/* Where the shares of the mixture that are asked for end. */
+struct quantile {
+    double share, low, high, below, above; /* below, above: what is below low, and below high */
+};
+
+/* Each probability that is computed narrows the search for all. By false position, each third step
+ * a bisection. */
+static void find_quantiles(const struct mixture *all, struct quantile *q, size_t count)
 {
+    static const double enough = 1e-5;
     double low = INFINITY, high = -INFINITY, least = INFINITY;
     for (size_t i = 0; i < all->count; i++) {
         const struct part *p = &all->part[i];
@@ -245,24 +292,23 @@ static double quantile(const struct mixture *all, double share)
         high = fmax(high, p->mean + width);
         least = fmin(least, p->scale);
     }
-    double below = -share, above = 1 - share;
-    for (int i = 0; i < 80 && high - low > 1e-3 * least; i++) {
-        const double at =
-            i % 3 == 2 ? 0.5 * (low + high) : (low * above - high * below) / (above - below);
-        const double off = probability_below(all, at) - share;
-        if (fabs(off) < 1e-6)
-            return at;
-        if (off < 0) {
-            low = at;
-            below = off;
-            above /= 2;
-        } else {
-            high = at;
-            above = off;
-            below /= 2;
+    for (size_t i = 0; i < count; i++)
+        q[i] = (struct quantile){q[i].share, low, high, 0, 1};
+    for (size_t i = 0; i < count; i++)
+        for (int step = 0; step < 80 && q[i].high - q[i].low > 1e-3 * least; step++) {
+            const double part = (q[i].share - q[i].below) / (q[i].above - q[i].below);
+            const double at = q[i].low + (step % 3 == 2 ? 0.5 : part) * (q[i].high - q[i].low);
+            const double below = probability_below(all, at);
+            for (size_t j = i; j < count; j++)
+                if (below < q[j].share && at > q[j].low)
+                    q[j].low = at, q[j].below = below;
+                else if (below >= q[j].share && at < q[j].high)
+                    q[j].high = at, q[j].above = below;
+            if (fabs(below - q[i].share) < enough)
+                q[i].low = q[i].high = at;
         }
-    }
-    return 0.5 * (low + high);
+    for (size_t i = 0; i < count; i++)
+        q[i].low = 0.5 * (q[i].low + q[i].high);
 }
 
 /* ---- windows ---- */
@@ -286,9 +332,12 @@ static void add_row(struct sums *s, const struct rows *r, size_t i, double sign)
     const double q = r->curve[i];
     s->w += w, s->x += w * x, s->y += w * y;
     s->xx += w * x * x, s->xy += w * x * y, s->yy += w * y * y;
-    s->q += w * q, s->xq += w * x * q, s->yq += w * y * q, s->qq += w * q * q;
-    const double v = w * r->weight[i] * r->rounded[i];
-    s->v += v, s->xv += x * v, s->xxv += x * x * v;
+    if (s->unit > 0)
+        s->q += w * q, s->xq += w * x * q, s->yq += w * y * q, s->qq += w * q * q;
+    if (r->rounded[i] > 0) {
+        const double v = w * r->weight[i] * r->rounded[i];
+        s->v += v, s->xv += x * v, s->xxv += x * x * v;
+    }
     s->log_density += sign * r->log_density[i];
     s->rows = sign > 0 ? s->rows + 1 : s->rows - 1;
 }
@@ -350,9 +399,18 @@ static void find_left(double far, const struct sums *s, double variance, double 
     p->left_scale = br_priors.shared * sqrt(variance * (a + b * b * xx) + fmax(0, known));
 }
 
-/* Adds the distribution of the order of these sums. p: its law and window, and the logarithm of
+/* Not above the logarithm, and at most 0.06 below it; x is a normal number above 0. */
+static double log_below(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return M_LN2 * ((double)bits * 0x1p-52 - 1023);
+}
+
+/* Adds the distribution of the order of these sums. of: its law and window, and the logarithm of
  * their prior; least: the smallest standard deviation of a logarithm. */
-static void add_window(struct mixture *all, const struct sums *s, struct part p, double least)
+static void add_window(struct mixture *all, const struct sums *s, const struct part *of,
+                       double least)
 {
     enum { FEW = 4 }; /* of two differences: as if five had shown their scatter */
     double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
@@ -369,20 +427,24 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     const double freedom = (double)s->rows - 2 - curved + s->freedom;
     if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
-    const double seen = all->only_best                   ? cell_scatter
-                        : curved && p.law != BR_LAW_KINK ? br_priors.least_curved
-                                                         : br_priors.least_scatter;
-    const double middle = s->x / s->w;
-    const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
+    const double seen =
+        fmax(all->within_cell,
+             curved && of->law != BR_LAW_KINK ? br_priors.least_curved : br_priors.least_scatter);
     if (s->parted && !(left <= (pow(br_priors.least_curved, 2) + s->v / s->w) * freedom))
         return; /* exact errors alone show two lines */
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
     qq /= curved ? s->unit * s->unit : 1;
-    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
-    if (!all->few)
-        p.weight += all->log_gamma[(size_t)freedom] - freedom / 2 * log(M_PI * squares);
-    if (!(p.weight > all->best - all->keeps)) /* all that follows lowers it */
+    const double spread = s->w * xx * qq;
+    const double prior =
+        of->weight + all->prior + s->log_density + (all->few ? 0 : all->log_gamma[(size_t)freedom]);
+    const double most =
+        prior - 0.5 * log_below(spread) - (all->few ? 0 : freedom / 2 * log_below(M_PI * squares));
+    if (!(most > all->best - all->keeps)) /* all that follows lowers it */
         return;
+    struct part p = *of;
+    p.weight = prior - 0.5 * log(spread) - (all->few ? 0 : freedom / 2 * log(M_PI * squares));
+    const double middle = s->x / s->w;
+    const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double scatter = all->few ? 0 : left / freedom;
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
@@ -422,7 +484,7 @@ static void add_without_one(struct mixture *all, const struct rows *r, const str
         if (s->unit == 0 && r->weight[p.outlier] * off * off < outside * left)
             continue;
         add_row(&without, r, p.outlier, -1);
-        add_window(all, &without, p, least);
+        add_window(all, &without, &p, least);
     }
 }
 
@@ -447,23 +509,27 @@ static void find_means(const struct rows *r)
 /* All windows of a law whose correction is set. Of many rows, not every window is tried. */
 static void add_windows(struct mixture *all, const struct rows *r, struct part p)
 {
-    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1, least = all->few ? 2 : 3;
+    const struct box *within = &all->within;
     const double prior = p.weight;
-    find_means(r);
-    const size_t least = all->few ? 2 : 3;
-    for (p.first = 0; p.first + least <= n; p.first += stride) {
+    if (within->last + 2 < n)
+        find_means(r);
+    for (p.first = within->first; p.first <= within->first_most; p.first += stride) {
         struct sums s = {.start = r->y[n - 1], .order = r->order, .unit = r->curve[p.first]};
-        for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
+        const double left_out = prior + coarse(p.first);
+        for (p.last = p.first; p.last <= within->last_most && isfinite(r->bent[p.last]); p.last++) {
             const size_t lost = n - 1 - p.last;
             add_row(&s, r, p.last, 1);
-            if (s.rows < least || (lost > 4 && lost % stride))
+            if (s.rows < least || p.last < within->last || (lost > 4 && lost % stride))
                 continue;
-            p.weight = prior + coarse(p.first) + r->noise[p.last];
+            p.weight = left_out + r->noise[p.last];
             p.outlier = n;
-            s.noise_x = r->behind_x[p.last];
-            s.noise_y = r->behind_y[p.last] - s.start - s.order * s.noise_x;
-            add_window(all, &s, p, r->least[p.first]);
-            add_without_one(all, r, &s, p, r->least[p.first]);
+            s.noise_x = lost > 1 ? r->behind_x[p.last] : (double)NAN;
+            s.noise_y =
+                lost > 1 ? r->behind_y[p.last] - s.start - s.order * s.noise_x : (double)NAN;
+            add_window(all, &s, &p, r->least[p.first]);
+            if (within->outlier)
+                add_without_one(all, r, &s, p, r->least[p.first]);
         }
     }
 }
@@ -534,7 +600,7 @@ static double bend(const struct rows *r, size_t i, const struct br_family *f, do
     const struct br_law_bend b = br_law_bend(f, parameter, &r->place[i]);
     r->bent[i] = r->y[i] - b.correction;
     r->weight[i] = b.weight * r->given[i];
-    r->log_density[i] = 0.5 * log(b.density ? r->weight[i] : r->given[i]);
+    r->log_density[i] = b.density ? 0.5 * log(r->weight[i]) : r->log_given[i];
     return b.change;
 }
 
@@ -569,7 +635,7 @@ static void bend_at(const struct rows *r, size_t middle, bool behind)
         const double from = r->x[i] - r->x[middle];
         r->bent[i] = r->y[i];
         r->weight[i] = r->given[i];
-        r->log_density[i] = 0.5 * log(r->given[i]);
+        r->log_density[i] = r->log_given[i];
         r->curve[i] = behind ? fmin(0, from) : fmax(0, from);
     }
 }
@@ -601,14 +667,15 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
             return;
         for (size_t i = first; i < n; i++)
             add_row(&s, r, i, 1);
-        add_window(all, &s,
-                   (struct part){.law = BR_LAW_KINK,
-                                 .first = first,
-                                 .last = behind ? middle : n - 1,
-                                 .outlier = n,
-                                 .curve_there = behind ? all->far - r->x[middle] : 0,
-                                 .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
-                   br_priors.sure);
+        add_window(
+            all, &s,
+            &(struct part){.law = BR_LAW_KINK,
+                           .first = first,
+                           .last = behind ? middle : n - 1,
+                           .outlier = n,
+                           .curve_there = behind ? all->far - r->x[middle] : 0,
+                           .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
+            br_priors.sure);
     }
 }
 
@@ -644,7 +711,7 @@ static void add_side(struct mixture *all, const struct side *a, const struct sid
     p.curve = b->slope - a->slope;
     p.outlier = p.last + 1;
     p.weight += other->log_density - 0.5 * log(other->w * b->xx) - log(gap * fabs(p.curve));
-    add_window(all, &s, p, br_priors.sure);
+    add_window(all, &s, &p, br_priors.sure);
 }
 
 /* The same where the two powers meet between this row and the next one, as the largest of errors at
@@ -695,7 +762,7 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
             e.x[i] = -pow(r->z[middle] / r->z[i], powers[k]) / powers[k];
             e.bent[i] = r->y[i];
             e.weight[i] = r->given[i];
-            e.log_density[i] = 0.5 * log(r->given[i]);
+            e.log_density[i] = r->log_given[i];
             e.least[i] = br_priors.sure;
             e.curve[i] = 0;
         }
@@ -710,88 +777,160 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
     }
 }
 
-/* Parameters are first tried in coarse cells, then within the cells that may matter, as finely as
- * the misfit there asks for. */
-enum { MOST_CELLS = 80, WITHIN = 6 };
-static const double cell = 0.16;     /* of the logarithm of the parameter */
-static const double matters = 10;    /* logarithm of the weight below the best one's */
-static const double scatters = 0.04; /* with a misfit of so much, the middle is enough */
+/* Parameters are first tried in cells, within which a law changes by about the same amount. Cells
+ * that may matter are split, as finely as their misfit asks for: where it is much more than what
+ * the middle of a part leaves of the part, that is enough. */
+enum { MOST_CELLS = 80, LEVELS = 7, SPLIT = 3 };
+static const double cell = 0.32, widest = 0.64; /* of the logarithm of the parameter */
+static const double matters = 10;               /* logarithm of the weight below the best one's */
 
-static size_t cells_of(const struct br_family *f)
-{
-    return (size_t)ceil(log(f->high / f->low) / cell);
-}
+struct cell {
+    double from, width; /* of the logarithm of the parameter */
+    double slope;       /* how much the correction changes with it, from row to row */
+    struct box box;     /* the windows that matter in it */
+};
+
+/* The search in the laws of all families. rough: of what may matter. */
+struct search {
+    struct mixture *all, rough;
+    const struct rows *r;
+    struct cell cell[BR_FAMILIES][MOST_CELLS];
+    size_t count[BR_FAMILIES];
+    double top[LEVELS]; /* the largest weight of all, by the size of parts */
+};
 
 static bool is_floor(const struct br_family *f)
 {
     return f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
 }
 
-/* Adds a family at this fraction of the way from its lowest parameter to the highest. */
+static double slope_at(const struct rows *r, const struct br_family *f, double parameter)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < r->count; i++) {
+        const struct br_law_bend b = br_law_bend(f, parameter, &r->place[i]);
+        least = fmin(least, b.slope);
+        most = isnan(b.correction) ? 1 : fmax(most, b.slope);
+    }
+    return fmin(1, most - least);
+}
+
+static void make_cells(const struct rows *r, const struct br_family *f, struct cell *c,
+                       size_t *count)
+{
+    const double end = log(f->high);
+    *count = 0;
+    for (double from = log(f->low); from < end && *count < MOST_CELLS;
+         from += c[*count - 1].width) {
+        const double slope = slope_at(r, f, exp(from));
+        const double width = fmin(fmax(cell, fmin(widest, 0.8 * cell / slope)), end - from);
+        c[(*count)++] = (struct cell){.from = from, .width = width, .slope = slope};
+    }
+}
+
+/* Adds the middle of a cell. */
 static void add_member(struct mixture *all, const struct rows *r, const struct br_family *f,
-                       double at, double members, double share)
+                       const struct cell *c)
 {
     const bool stays = is_floor(f);
-    const double parameter = f->low * pow(f->high / f->low, (at + 0.5) / members);
+    const double parameter = exp(c->from + c->width / 2), share = c->width / log(f->high / f->low);
     if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
         return;
-    add_law(all, r, f, parameter, share,
-            log(f->prior / members * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
+    add_law(all, r, f, parameter, br_priors.truncation,
+            log(f->prior * share * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
 }
 
-/* The largest weights of the cells of each family, and of all together. */
-struct cells {
-    double best[BR_FAMILIES][MOST_CELLS], top;
-};
-
-static void try_cells(struct mixture *rough, const struct rows *r, struct cells *c)
+/* Which windows matter in a part of a cell, where its middle leaves so much of it. */
+static void try_part(struct search *s, const struct br_family *f, struct cell *c, int level)
 {
-    c->top = rough->best;
+    static const struct box no_window = {.best = -INFINITY, .first = SIZE_MAX, .last = SIZE_MAX};
+    s->rough.found = no_window;
+    s->rough.best = s->top[level];
+    s->rough.within_cell = cell_scatter / pow(SPLIT, level);
+    add_member(&s->rough, s->r, f, c);
+    s->top[level] = s->rough.best;
+    c->box = s->rough.found;
+}
+
+/* Of a few cells of each family all windows are tried, of the others those that may matter. */
+static void try_cells(struct search *s)
+{
+    enum { FEW = 8 };
+    static const double may_matter = 20;
+    struct box found = {.best = -INFINITY, .first = SIZE_MAX, .last = SIZE_MAX};
     for (size_t f = 0; f < BR_FAMILIES; f++) {
-        set_family(r, &br_families[f]);
-        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
-            rough->best = c->top - matters;
-            add_member(rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
-            c->best[f][i] = rough->best;
-            c->top = fmax(c->top, rough->best);
+        set_family(s->r, &br_families[f]);
+        make_cells(s->r, &br_families[f], s->cell[f], &s->count[f]);
+        for (size_t i = 0; i < s->count[f]; i += FEW) {
+            s->rough.keeps = may_matter;
+            try_part(s, &br_families[f], &s->cell[f][i], 0);
+            join(&found, &s->rough.found);
         }
     }
+    s->rough.within = found;
+    s->rough.keeps = matters + 2;
+    for (size_t f = 0; f < BR_FAMILIES; f++) {
+        set_family(s->r, &br_families[f]);
+        for (size_t i = 0; i < s->count[f]; i++)
+            try_part(s, &br_families[f], &s->cell[f][i], 0);
+    }
 }
 
-/* How many members of a cell the misfit asks for: of the best member of all best cells. */
-static double members_within(struct mixture *rough, const struct rows *r, const struct cells *c)
+/* Adds what matters of a cell, or of a part of it. */
+static void descend(struct search *s, const struct br_family *f, const struct cell *c, int level)
 {
-    rough->best = -INFINITY;
-    for (size_t f = 0; f < BR_FAMILIES; f++) {
-        const size_t n = cells_of(&br_families[f]);
-        size_t at = 0;
-        for (size_t i = 0; i < n; i++)
-            at = c->best[f][i] > c->best[f][at] ? i : at;
-        set_family(r, &br_families[f]);
-        for (size_t j = 0; j < WITHIN && c->best[f][at] > c->top - matters; j++)
-            add_member(rough, r, &br_families[f], (double)(at * WITHIN + j), (double)(n * WITHIN),
-                       br_priors.truncation);
+    static const double enough = 12; /* so many times what the middle of a part leaves of it */
+    const double scatter = cell_scatter / pow(SPLIT, level);
+    if (!(c->box.best > s->top[level] - matters))
+        return;
+    if (level + 1 == LEVELS || s->all->few || c->box.misfit > enough * scatter) {
+        s->all->within = c->box;
+        s->all->within_cell = fmin(scatter, cell_scatter * c->slope * c->width / cell);
+        add_member(s->all, s->r, f, c);
+        return;
     }
-    return rough->best > -INFINITY ? fmin(WITHIN, ceil(scatters / rough->misfit)) : WITHIN;
+    const double parts = fmax(1, ceil(c->slope * c->width / cell * pow(SPLIT, level + 1)));
+    for (double j = 0; j < parts; j++) {
+        struct cell part = *c;
+        part.width = c->width / parts;
+        part.from += j * part.width;
+        s->rough.within = c->box;
+        try_part(s, f, &part, level + 1);
+        descend(s, f, &part, level + 1);
+    }
+}
+
+static struct box all_windows(const struct mixture *all, const struct rows *r)
+{
+    return (struct box){
+        .first_most = r->count - (all->few ? 2 : 3), .last_most = r->count - 1, .outlier = true};
 }
 
 static void add_laws(struct mixture *all, const struct rows *r, double log_prior)
 {
     static const struct br_family power = {.law = BR_LAW_POWER};
-    struct mixture rough = {.best = -INFINITY,
-                            .only_best = true,
-                            .far = all->far,
-                            .few = all->few,
-                            .finest = all->finest,
-                            .log_gamma = all->log_gamma};
-    struct cells cells;
+    struct search s = {.all = all,
+                       .r = r,
+                       .rough = {.best = -INFINITY,
+                                 .only_best = true,
+                                 .rows = r->count,
+                                 .far = all->far,
+                                 .few = all->few,
+                                 .finest = all->finest,
+                                 .log_gamma = all->log_gamma}};
     all->prior = log_prior;
     all->keeps = kept;
+    all->within = s.rough.within = all_windows(all, r);
+    all->within_cell = 0;
     set_family(r, &power);
     add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
-    add_law(&rough, r, &power, 0, 0, log(br_priors.power));
-    try_cells(&rough, r, &cells);
-    const double enough = members_within(&rough, r, &cells);
+    for (int level = 0; level < LEVELS; level++) {
+        s.rough.best = -INFINITY;
+        s.rough.within_cell = cell_scatter / pow(SPLIT, level);
+        add_law(&s.rough, r, &power, 0, 0, log(br_priors.power));
+        s.top[level] = s.rough.best;
+    }
+    try_cells(&s);
     for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
         add_kink(all, r, i, false);
         add_kink(all, r, i, true);
@@ -800,22 +939,25 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
     }
     add_exponentials(all, r);
     for (size_t f = 0; f < BR_FAMILIES; f++) {
-        const double m = is_floor(&br_families[f]) ? WITHIN : enough; /* near it errors tell more */
-        all->keeps = kept - log(WITHIN / m);
         set_family(r, &br_families[f]);
-        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
-            for (double j = 0; j < m && cells.best[f][i] > cells.top - matters; j++)
-                add_member(all, r, &br_families[f], (double)i * m + j, (double)n * m,
-                           br_priors.truncation);
+        for (size_t i = 0; i < s.count[f]; i++)
+            descend(&s, &br_families[f], &s.cell[f][i], 0);
     }
 }
 
 /* ---- the order ---- */
 
-/* The interval of 95 % of all parts, with the median. */
-static struct br_estimate estimate(const struct mixture *all)
+/* The interval of 95 % of all parts, with the median; low99, high99: that of 99 %, or NULL. */
+static struct br_estimate estimate(const struct mixture *all, double *low99, double *high99)
 {
-    return (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025), quantile(all, 0.975)};
+    struct quantile q[] = {
+        {.share = 0.5}, {.share = 0.025}, {.share = 0.975}, {.share = 0.005}, {.share = 0.995}};
+    find_quantiles(all, q, low99 ? 5 : 3);
+    if (low99) {
+        *low99 = q[3].low;
+        *high99 = q[4].low;
+    }
+    return (struct br_estimate){q[0].low, q[1].low, q[2].low};
 }
 
 /* Keeps the parts of this g of the exponential law, 0: of all others; their weights are then 1. */
@@ -839,7 +981,7 @@ static void find_rate(struct mixture *all, const struct rows *r, double finest,
 {
     const double g = found->power = all->part[0].power;
     const double unit = g * pow(r->z[r->count / 2] * finest, -g);
-    const struct br_estimate slope = estimate(all);
+    const struct br_estimate slope = estimate(all, NULL, NULL);
     found->rate = (struct br_estimate){slope.value / unit, slope.low / unit, slope.high / unit};
 }
 
@@ -896,11 +1038,8 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
     const struct part *likely = &all->part[0];
     if (exponential)
         find_rate(all, r, finest, found);
-    else if (!all->few) {
-        found->order = estimate(all);
-        found->low99 = quantile(all, 0.005);
-        found->high99 = quantile(all, 0.995);
-    }
+    else if (!all->few)
+        found->order = estimate(all, &found->low99, &found->high99);
     found->converges = exponential ? 1 : 1 - probability_below(all, all->few ? 0.2 : surely_falls);
     found->diverges = exponential ? 0 : probability_below(all, 0);
     for (size_t i = 0; i < all->count; i++) { /* differences that stay make a logarithm */
@@ -925,7 +1064,7 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 17 };
+    enum { ARRAYS = 18 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
                                     .rate = {NAN, NAN, NAN},
                                     .power = NAN,
@@ -941,10 +1080,10 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     enum br_status status = room && index && place ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
         struct rows r = {.index = index, .z = room, .place = place};
-        double **const array[] = {&r.x,        &r.y,           &r.ratio, &r.bent,
-                                  &r.weight,   &r.log_density, &r.least, &r.given,
-                                  &r.curve,    &r.rounded,     &r.noise, &r.other,
-                                  &r.behind_x, &r.behind_y,    &r.error, &r.log_gamma};
+        double **const array[] = {&r.x,           &r.y,        &r.ratio,    &r.bent,     &r.weight,
+                                  &r.log_density, &r.least,    &r.given,    &r.curve,    &r.rounded,
+                                  &r.noise,       &r.other,    &r.behind_x, &r.behind_y, &r.error,
+                                  &r.log_gamma,   &r.log_given};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, count);
@@ -959,9 +1098,13 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
             all.log_gamma = r.log_gamma;
             const double absolute = isfinite(all.far) && !all.few ? br_priors.absolute : 0;
             all.finest = 1;
+            for (size_t i = 0; i < r.count; i++)
+                r.log_given[i] = 0.5 * log(r.given[i]);
             add_laws(&all, &r, log(1 - absolute));
             for (size_t i = 0; i < r.count; i++)
                 r.given[i] *= exp(2 * (r.error[i] - r.error[0]));
+            for (size_t i = 0; i < r.count; i++)
+                r.log_given[i] = 0.5 * log(r.given[i]);
             all.finest = r.given[r.count - 1];
             if (absolute > 0)
                 add_laws(&all, &r, log(absolute));
@@ -976,7 +1119,7 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
         if (!status && all.count && isfinite(all.far))
             status = take_left(&all, &r, &left, err);
         if (!status && left.count)
-            found->left = estimate(&left);
+            found->left = estimate(&left, NULL, NULL);
         free(left.part);
     }
     free(all.part);
