@@ -33,7 +33,7 @@ struct rows {
     double *bent, *weight; /* of a law: y - correction; relative to 1/sigma^2 */
     double *curve;         /* of a law: z^curve, 1 at the coarsest row; 0: it has none */
     double *log_density;   /* the part of the density of y that the weight does not cancel */
-    double *least;         /* the smallest standard deviation in a window that begins here */
+    double *change;        /* of a law: how large the correction is, 0 to 1 */
     double *noise;         /* log of the density of all rows behind this one, if they are noise */
     double *error;         /* log e */
     double *log_gamma;     /* by degrees of freedom, of half of them */
@@ -407,6 +407,13 @@ static double log_below(double x)
     return M_LN2 * ((double)bits * 0x1p-52 - 1023);
 }
 
+/* The smallest standard deviation of a logarithm, where a correction is so large: more terms
+ * follow. */
+static double least_scatter(double change)
+{
+    return br_priors.sure + change * (br_priors.truncation + br_priors.next_term * change);
+}
+
 /* Adds the distribution of the order of these sums. of: its law and window, and the logarithm of
  * their prior; least: the smallest standard deviation of a logarithm. */
 static void add_window(struct mixture *all, const struct sums *s, const struct part *of,
@@ -446,9 +453,11 @@ static void add_window(struct mixture *all, const struct sums *s, const struct p
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double scatter = all->few ? 0 : left / freedom;
+    p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : p.curve;
+    if (curved && p.law != BR_LAW_KINK)
+        least += (least_scatter(fmin(1, fabs(p.curve) * s->unit)) - br_priors.sure);
     const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
-    p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : p.curve;
     p.misfit = all->few ? 0 : sqrt(squares / freedom);
     p.freedom = all->few ? FEW : freedom;
     p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
@@ -512,24 +521,70 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1, least = all->few ? 2 : 3;
     const struct box *within = &all->within;
     const double prior = p.weight;
+    const bool bends = p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT;
     if (within->last + 2 < n)
         find_means(r);
     for (p.first = within->first; p.first <= within->first_most; p.first += stride) {
         struct sums s = {.start = r->y[n - 1], .order = r->order, .unit = r->curve[p.first]};
         const double left_out = prior + coarse(p.first);
+        double change = 0;
         for (p.last = p.first; p.last <= within->last_most && isfinite(r->bent[p.last]); p.last++) {
             const size_t lost = n - 1 - p.last;
             add_row(&s, r, p.last, 1);
+            change = fmax(change, r->change[p.last]);
             if (s.rows < least || p.last < within->last || (lost > 4 && lost % stride))
                 continue;
-            p.weight = left_out + r->noise[p.last];
+            p.weight = left_out + r->noise[p.last] + (lost > 1 && bends ? log(br_priors.both) : 0);
             p.outlier = n;
             s.noise_x = lost > 1 ? r->behind_x[p.last] : (double)NAN;
             s.noise_y =
                 lost > 1 ? r->behind_y[p.last] - s.start - s.order * s.noise_x : (double)NAN;
-            add_window(all, &s, &p, r->least[p.first]);
+            add_window(all, &s, &p, least_scatter(change));
             if (within->outlier)
-                add_without_one(all, r, &s, p, r->least[p.first]);
+                add_without_one(all, r, &s, p, least_scatter(change));
+        }
+    }
+}
+
+/* One power whose constant drifts: not errors, but what they change by from row to row is scattered
+ * independently. The sums are those of the changes; the line goes through the last row. */
+static void add_drifts(struct mixture *all, const struct rows *r)
+{
+    enum { LEAST = 4 };
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    for (size_t i = 0; i < n; i++)
+        if (r->log_given[i] < 0 || r->log_given[i] > 0)
+            return;
+    for (size_t first = 0; first + LEAST <= n; first += stride) {
+        double xx = 0, xy = 0, yy = 0, v = 0, xxv = 0;
+        for (size_t i = first; i + 1 < n; i++) {
+            const double x = r->x[i] - r->x[i + 1], y = r->y[i] - r->y[i + 1] - r->order * x;
+            const double rounded = r->rounded[i] + r->rounded[i + 1], end = r->x[i + 1];
+            xx += x * x, xy += x * y, yy += y * y, v += rounded, xxv += x * x * rounded;
+            const size_t rows = i + 2 - first;
+            const double mean = v / (double)(rows - 1);
+            const struct sums s = {.w = 1,
+                                   .x = end,
+                                   .xx = xx + end * end,
+                                   .xy = xy,
+                                   .yy = yy,
+                                   .v = mean,
+                                   .xv = end * mean,
+                                   .xxv = xxv + end * end * mean,
+                                   .rows = rows,
+                                   .start = r->y[i + 1] - r->order * end,
+                                   .order = r->order,
+                                   .noise_x = NAN,
+                                   .noise_y = NAN};
+            if (rows >= LEAST)
+                add_window(all, &s,
+                           &(struct part){.law = BR_LAW_POWER,
+                                          .first = first,
+                                          .last = i + 1,
+                                          .outlier = n,
+                                          .weight = log(br_priors.power * br_priors.drifts) +
+                                                    coarse(first) + r->noise[i + 1]},
+                           br_priors.sure);
         }
     }
 }
@@ -594,26 +649,22 @@ static void set_family(const struct rows *r, const struct br_family *f)
     }
 }
 
-/* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. */
-static double bend(const struct rows *r, size_t i, const struct br_family *f, double parameter)
+/* Sets the correction of row i by a law with this parameter. */
+static void bend(const struct rows *r, size_t i, const struct br_family *f, double parameter)
 {
     const struct br_law_bend b = br_law_bend(f, parameter, &r->place[i]);
     r->bent[i] = r->y[i] - b.correction;
     r->weight[i] = b.weight * r->given[i];
     r->log_density[i] = b.density ? 0.5 * log(r->weight[i]) : r->log_given[i];
-    return b.change;
+    r->change[i] = b.change;
 }
 
-/* Adds a law with one parameter. share: of its correction that is not known. */
+/* Adds a law with one parameter. */
 static void add_law(struct mixture *all, const struct rows *r, const struct br_family *f,
-                    double parameter, double share, double log_prior)
+                    double parameter, double log_prior)
 {
-    double change = 0;
-    for (size_t i = r->count; i-- > 0;) {
-        change = fmax(change, bend(r, i, f, parameter));
-        r->least[i] = br_priors.sure +
-                      share * change * (1 + br_priors.next_term / br_priors.truncation * change);
-    }
+    for (size_t i = 0; i < r->count; i++)
+        bend(r, i, f, parameter);
     const double crosses = br_law_log_prior(f, parameter, r->z[0]);
     const struct br_law_place finest = {all->far, exp(f->s * all->far), 1};
     const double there = isfinite(all->far) ? br_law_bend(f, parameter, &finest).correction : 0;
@@ -763,7 +814,7 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
             e.bent[i] = r->y[i];
             e.weight[i] = r->given[i];
             e.log_density[i] = r->log_given[i];
-            e.least[i] = br_priors.sure;
+            e.change[i] = 0;
             e.curve[i] = 0;
         }
         e.order = (e.y[0] - e.y[n - 1]) / (e.x[0] - e.x[n - 1]);
@@ -836,7 +887,7 @@ static void add_member(struct mixture *all, const struct rows *r, const struct b
     const double parameter = exp(c->from + c->width / 2), share = c->width / log(f->high / f->low);
     if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
         return;
-    add_law(all, r, f, parameter, br_priors.truncation,
+    add_law(all, r, f, parameter,
             log(f->prior * share * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
 }
 
@@ -923,11 +974,11 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
     all->within = s.rough.within = all_windows(all, r);
     all->within_cell = 0;
     set_family(r, &power);
-    add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
+    add_law(all, r, &power, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
     for (int level = 0; level < LEVELS; level++) {
         s.rough.best = -INFINITY;
         s.rough.within_cell = cell_scatter / pow(SPLIT, level);
-        add_law(&s.rough, r, &power, 0, 0, log(br_priors.power));
+        add_law(&s.rough, r, &power, 0, log(br_priors.power));
         s.top[level] = s.rough.best;
     }
     try_cells(&s);
@@ -938,6 +989,7 @@ static void add_laws(struct mixture *all, const struct rows *r, double log_prior
             add_break(all, r, i);
     }
     add_exponentials(all, r);
+    add_drifts(all, r);
     for (size_t f = 0; f < BR_FAMILIES; f++) {
         set_family(r, &br_families[f]);
         for (size_t i = 0; i < s.count[f]; i++)
@@ -1081,7 +1133,7 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     if (!status) {
         struct rows r = {.index = index, .z = room, .place = place};
         double **const array[] = {&r.x,           &r.y,        &r.ratio,    &r.bent,     &r.weight,
-                                  &r.log_density, &r.least,    &r.given,    &r.curve,    &r.rounded,
+                                  &r.log_density, &r.change,   &r.given,    &r.curve,    &r.rounded,
                                   &r.noise,       &r.other,    &r.behind_x, &r.behind_y, &r.error,
                                   &r.log_gamma,   &r.log_given};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
