@@ -26,8 +26,47 @@ struct br_command {
                           struct br_error *err);
 };
 
-/* NULL-terminated, in the order of the help text. */
-extern const struct br_command *const br_commands[];
+struct br_registry {
+    const char *option, *title;
+    const struct br_words *words;
+};
+
+/* What the program has of the beam. beam/beam.h says it of each. */
+struct br_beam {
+    size_t (*add_options)(const struct br_command *command, struct br_option row[BR_OPTIONS],
+                          size_t count);
+    const char *(*standard)(const struct br_option *row, char text[BR_OPTION_TEXT]);
+    enum br_status (*check_options)(const struct br_options *options, struct br_error *err);
+    enum br_status (*start)(struct br_error *err);
+    enum br_status (*end)(enum br_status status, struct br_error *err);
+    bool (*first)(void);
+    int (*size)(void);
+    const char *const *topics; /* of the help, besides the commands; NULL-terminated */
+    void (*print_topic)(const char *topic);
+};
+
+/* A program; its main.c has it. */
+struct br_program {
+    const char *name, *about, *hint;          /* hint: the last sentence of the help */
+    const struct br_command *const *commands; /* NULL-terminated, in the order of the help */
+    const char *example[BR_MOST_EXAMPLES];
+    const struct br_beam *beam; /* NULL: none */
+};
+extern const struct br_program br_program;
+
+/* Runs the program: its exit code. */
+int br_run_program(int argc, const char **argv);
+
+/* Whether this process prints and writes: the first of several ranks. */
+static inline bool br_is_first(void)
+{
+    return !br_program.beam || br_program.beam->first();
+}
+
+static inline int br_processes(void)
+{
+    return br_program.beam ? br_program.beam->size() : 1;
+}
 
 /* NULL: there is none. */
 const struct br_command *br_find_command(const char *name);
@@ -36,19 +75,7 @@ const struct br_command *br_find_command(const char *name);
 
 void br_print_command_help(FILE *out, const struct br_command *command);
 
-/* Writes the "man" page, docs/options.md ("markdown"), or the completions of "bash", "zsh" or
- * "fish" with the names of scenes, separated by blanks (NULL: none). */
-void br_write_language(FILE *out, const char *name, const char *scenes);
-
-/* The help of an option, as "elements (default 100)"; returns text (out). */
-const char *br_option_help(const struct br_option *row, char *text, size_t size);
-
-/* The registries whose rows are chosen by name, with their headings; returns their number. */
-enum { BR_REGISTRIES = BR_METHOD_FIELDS + 3 };
-struct br_registry {
-    const char *option, *title;
-    const struct br_words *words;
-};
-size_t br_registries(struct br_registry list[BR_REGISTRIES]);
+/* Writes words in lines of the terminal's width. The first line has `at` letters already. */
+void br_print_wrapped(FILE *out, const char *text, size_t at, size_t indent);
 
 #endif

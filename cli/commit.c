@@ -9,10 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/quote.h"
+#include "base/text.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "study/base/quote.h"
-#include "study/base/text.h"
 
 /* No result can have this name: those begin with no dot. */
 static const char list_name[] = ".beamrate-set", first_line[] = "beamrate-set 2\n";

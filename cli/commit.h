@@ -27,7 +27,7 @@
 
 #include <stdbool.h>
 
-#include "solver/status.h"
+#include "base/status.h"
 
 /* The page that every run writes: it belongs to the set of the last run only. */
 #define BR_PAGE "report.html"

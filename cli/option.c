@@ -7,10 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "cli/command.h"
-#include "solver/scene.h"
-#include "study/base/words.h"
-#include "study/grid/study.h"
 
 /* ---- what is refused ---- */
 
@@ -25,11 +23,11 @@ static enum br_status refuse(poptContext context, const struct br_option *row, s
         names[i] = row[i].name;
     const bool unknown = code == POPT_ERROR_BADOPT;
     struct br_option theirs[BR_OPTIONS];
-    for (const struct br_command *const *c = br_commands; *c; c++)
+    for (const struct br_command *const *c = br_program.commands; *c; c++)
         for (size_t i = 0, all = br_options_of(*c, theirs); i < all; i++)
             if (unknown && strncmp(bad, "--", 2) == 0 && strcmp(theirs[i].name, word) == 0)
-                return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of 'beamrate %s'", bad,
-                               poptStrerror(code), (*c)->name);
+                return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of '%s %s'", bad,
+                               poptStrerror(code), br_program.name, (*c)->name);
     const char *nearest = unknown ? br_nearest(word, names, count) : NULL;
     return br_fail(err, BR_BAD_INPUT, "%s: %s; %s%s%s", bad, poptStrerror(code),
                    nearest ? "did you mean --" : "'--help' lists the options",
@@ -141,20 +139,16 @@ static enum br_status read_value(struct br_options *o, const struct br_option *r
     return inner.status ? br_fail(err, inner.status, "%s: %s", name, inner.message) : BR_OK;
 }
 
-/* Names and numbers of a method must be valid, whatever a scene says. */
 static enum br_status read_values(struct br_options *o, const struct br_option *row, size_t count,
                                   struct br_error *err)
 {
-    struct br_method method = br_method_default();
-    if (br_option_given(o, BR_OPT_K) && br_option_given(o, BR_OPT_STEPS))
-        return br_fail(err, BR_BAD_INPUT, "--k and --steps are given, expected one of the two");
     for (size_t i = 0; i < count; i++) {
         if (!o->text[row[i].id])
             o->text[row[i].id] = row[i].standard;
         if (read_value(o, &row[i], err))
             return err->status;
     }
-    return br_method_read(&o->given[BR_OPT_METHOD], BR_METHOD_OPTION, &method, err);
+    return br_program.beam ? br_program.beam->check_options(o, err) : BR_OK;
 }
 
 /* ---- the command line ---- */
@@ -234,7 +228,7 @@ enum br_status br_options_parse(int argc, const char **argv, const struct br_com
                                                                                : POPT_ARG_STRING,
                                        .val = (int)i + 1};
     errno = 0;
-    poptContext context = poptGetContext("beamrate", argc, argv, table, 0);
+    poptContext context = poptGetContext(br_program.name, argc, argv, table, 0);
     enum br_status status = BR_OK;
     if (context && errno != ENOMEM) /* without memory popt forgets words */
         status = read_all(context, o, row, count, err);
@@ -266,7 +260,13 @@ const char *br_first_given(const struct br_options *o, const enum br_option_id *
 {
     while (*list != BR_OPTIONS && !o->given[*list])
         list++;
-    return *list == BR_OPTIONS ? NULL : br_option_name(*list);
+    if (*list == BR_OPTIONS)
+        return NULL;
+    struct br_option row[BR_OPTIONS];
+    size_t i = 0;
+    for (br_options_of(o->command, row); row[i].id != *list;)
+        i++;
+    return row[i].name;
 }
 
 const char *br_option_text(const struct br_options *o, enum br_option_id id)

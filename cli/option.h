@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "study/scene/method_fields.h"
+#include "base/words.h"
 
 /* The commands that take an option. */
 enum {
@@ -24,9 +24,12 @@ enum {
     BR_FOR_ORDERS = 2048,
 };
 
+/* In the order of the help. */
 enum br_option_id {
+    BR_OPT_RUN,
+    BR_OPT_READ,
+    BR_OPT_REPEAT,
     BR_OPT_N,
-    BR_OPT_SET,
     BR_OPT_K,
     BR_OPT_STEPS,
     BR_OPT_REFERENCE,
@@ -35,39 +38,38 @@ enum br_option_id {
     BR_OPT_TOLERANCES,
     BR_OPT_SPLIT,
     BR_OPT_ERROR,
+    BR_OPT_VALUE,
+    BR_OPT_COLUMN,
+    BR_OPT_WHERE,
+    BR_OPT_DIMENSION,
+    BR_OPT_FORMAL,
+    BR_OPT_EXPECT,
     BR_OPT_SECONDS,
     BR_OPT_TIME_LIMIT,
     BR_OPT_FIELDS,
     BR_OPT_CHECK,
     BR_OPT_AT,
     BR_OPT_ROWS,
+    BR_OPT_TRUST,
     BR_OPT_ALL,
-    BR_OPT_COMPARE,
     BR_OPT_JUNIT,
     BR_OPT_JSON,
     BR_OPT_GITHUB,
     BR_OPT_MARKDOWN,
+    BR_OPT_COMPARE,
     BR_OPT_UPDATE_BASELINE,
-    BR_OPT_VALUE,
-    BR_OPT_COLUMN,
-    BR_OPT_WHERE,
-    BR_OPT_DIMENSION,
-    BR_OPT_FORMAL,
-    BR_OPT_RUN,
-    BR_OPT_READ,
-    BR_OPT_REPEAT,
-    BR_OPT_EXPECT,
-    BR_OPT_TRUST,
-    BR_OPT_RESUME,
     BR_OPT_NEW,
+    BR_OPT_RESUME,
+    BR_OPT_SET,
     BR_OPT_OUT,
     BR_OPT_FORMAT,
     BR_OPT_NO_PLOTS,
     BR_OPT_THREADS,
     BR_OPT_QUIET,
     BR_OPT_HELP,
-    BR_OPT_METHOD, /* BR_OPT_METHOD + i: br_method_fields[i] */
-    BR_OPTIONS = BR_OPT_METHOD + BR_METHOD_FIELDS
+    BR_OPT_METHOD, /* BR_OPT_METHOD + i: field i of the beam's method */
+    BR_OPT_LAST_OF_METHOD = BR_OPT_METHOD + 8,
+    BR_OPTIONS
 };
 
 /* How the text is read while the command line is parsed; what needs a scene is read later. */
@@ -109,20 +111,39 @@ struct br_option {
     const struct br_own *own; /* NULL: all commands have the same */
 };
 
+#define BR_RANGE(low, high, whole) \
+    {                              \
+        low, high, whole           \
+    }
+#define BR_OWN(...)                \
+    .own = (const struct br_own[]) \
+    {                              \
+        __VA_ARGS__,               \
+        {                          \
+            0                      \
+        }                          \
+    }
+
 struct br_command;
 
 /* The rows that a command takes, in the help's order (out); returns how many. */
 size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS]);
 
-/* The name of an option that is no method's. */
-const char *br_option_name(enum br_option_id id);
+/* Adds the rows of a list that a command takes behind `count` others; returns how many there are
+ * then. */
+size_t br_options_add(const struct br_option *from, size_t rows, const struct br_command *command,
+                      struct br_option row[BR_OPTIONS], size_t count);
 
 /* The default as the help shows it, or NULL. text: workspace. */
-const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE]);
+enum { BR_OPTION_TEXT = 64 };
+const char *br_option_default(const struct br_option *row, char text[BR_OPTION_TEXT]);
+
+/* The help of an option, as "elements (default 100)"; returns text (out). */
+const char *br_option_help(const struct br_option *row, char *text, size_t size);
 
 /* ---- registries that options name ---- */
 
-extern const struct br_words br_norm_words, br_judge_words, br_format_words;
+extern const struct br_words br_format_words;
 
 /* ---- a command line ---- */
 

@@ -3,13 +3,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/clock.h"
+#include "base/load.h"
+#include "base/words.h"
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
-#include "solver/clock.h"
-#include "study/base/words.h"
-#include "study/scene/file.h"
 
 struct run {
     const struct br_options *options; /* borrowed */
@@ -138,7 +139,7 @@ static enum br_status read_study(const char *path, const struct br_options *o,
                        "of the two",
                        path);
     const bool failed =
-        br_scene_load(path, &text, err) || br_study_file_read(path, text, o, study, err);
+        br_text_load(path, BR_LONGEST_STUDY, "study file", &text, err) || br_study_file_read(path, text, o, study, err);
     free(text);
     return failed ? err->status : BR_OK;
 }
@@ -207,7 +208,8 @@ static enum br_status build_report(struct run *r, struct br_document *d, struct 
     for (int axis = 0; axis < BR_AXES; axis++)
         if (br_orders_growth(&r->study.orders, (enum br_axis)axis, &growth[axis], err))
             return err->status;
-    const struct br_provenance provenance = br_provenance_of(NULL, r->session->threads);
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, r->session->threads);
     br_report_orders(&r->study.orders, growth, caption, d);
     if (br_output_is_open(&r->session->output))
         br_session_draw(r->session, d, br_orders_draw(&r->study.orders, caption),

@@ -11,8 +11,8 @@
 #include <stdio.h>
 #include <sys/types.h>
 
+#include "base/status.h"
 #include "cli/commit.h"
-#include "solver/status.h"
 
 /* Begins with zeros. */
 struct br_output {

@@ -9,7 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 
 /* ---- signals ---- */
 

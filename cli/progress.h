@@ -6,8 +6,8 @@
 #ifndef BR_CLI_PROGRESS_H
 #define BR_CLI_PROGRESS_H
 
-#include "study/base/observer.h"
-#include "study/grid/study.h"
+#include "base/observer.h"
+#include "base/status.h"
 
 /* Catches SIGINT, SIGTERM and SIGHUP; a file size limit then fails the write instead. */
 void br_signals_install(void);

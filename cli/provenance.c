@@ -7,9 +7,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/quote.h"
+#include "base/text.h"
 #include "build_info.h"
-#include "study/base/quote.h"
-#include "study/base/text.h"
 
 static char *command_line, machine[512], date[32];
 

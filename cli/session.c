@@ -3,49 +3,14 @@
 
 #include <string.h>
 
+#include "base/quote.h"
+#include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "study/base/each.h"
-#include "study/base/quote.h"
-#include "study/base/text.h"
-#include "study/ranks/ranks.h"
-#include "study/scene/file.h"
-#include "tables/reports.h"
-
-enum br_status br_opened_scene_read(struct br_opened_scene *s, const struct br_session *session,
-                                    const char *name, struct br_error *err)
-{
-    char *text = NULL;
-    const struct br_scene_asked asked = {.set = session->set, .text = &text};
-    if (br_scene_find(name, s->path, sizeof s->path, err) || br_scene_load(s->path, &s->text, err))
-        return err->status;
-    const enum br_status status = br_scene_parse(s->path, s->text, &asked, &s->scene, err);
-    if (text) {
-        free(s->text);
-        s->text = text;
-    }
-    return status;
-}
-
-void br_opened_scene_clear(struct br_opened_scene *s)
-{
-    br_scene_clear(&s->scene);
-    free(s->text);
-    s->text = NULL;
-}
-
-struct br_provenance br_provenance_of(const struct br_opened_scene *s, int threads)
-{
-    struct br_provenance p;
-    br_provenance_fill(&p, threads);
-    p.scene_path = s ? s->path : NULL;
-    p.scene_text = s ? s->text : NULL;
-    return p;
-}
 
 struct br_session br_session_begin(const struct br_options *options)
 {
-    const bool writes = br_ranks_first();
+    const bool writes = br_is_first();
     return (struct br_session){
         .out = br_option_text(options, BR_OPT_OUT),
         .set = br_option_text(options, BR_OPT_SET),
@@ -61,7 +26,7 @@ struct br_session br_session_begin(const struct br_options *options)
 
 enum br_status br_session_alone(struct br_error *err)
 {
-    const int ranks = br_ranks_size();
+    const int ranks = br_processes();
     return ranks == 1
                ? BR_OK
                : br_fail(err, BR_BAD_INPUT,
@@ -78,11 +43,11 @@ enum br_status br_session_keep(const struct br_session *s, struct br_kept *kept,
 {
     struct br_provenance here;
     *kept = (struct br_kept){0};
-    if (!br_output_is_open(&s->output) || br_ranks_size() > 1)
+    if (!br_output_is_open(&s->output) || br_processes() > 1)
         return s->resume
                    ? br_fail(err, BR_BAD_INPUT, "--resume: expected %s",
-                             br_ranks_size() > 1 ? "one rank: several ranks keep no work"
-                                                 : "--out, the folder of the work that is kept")
+                             br_processes() > 1 ? "one rank: several ranks keep no work"
+                                                : "--out, the folder of the work that is kept")
                    : BR_OK;
     br_provenance_fill(&here, 0);
     return br_kept_open(kept, s->output.folder, s->resume, here.machine, err);
@@ -115,46 +80,11 @@ void br_session_put_set(const struct br_session *s, struct br_document *report)
     }
 }
 
-char *br_session_scene(const struct br_session *s, const char *name)
-{
-    char *text, *set = s->set ? strdup(s->set) : NULL, *rest = set;
-    size_t size;
-    FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
-    if (out)
-        br_quote(out, &br_for_shell, name);
-    while (out && rest) {
-        fputs(" --set ", out);
-        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
-    }
-    free(set);
-    return out && fclose(out) == 0 ? text : NULL;
-}
-
 enum br_status br_session_report(struct br_session *s, size_t documents, struct br_error *err)
 {
     s->document = br_allocate(documents, sizeof *s->document);
     s->documents = s->document ? documents : 0;
     return s->document ? BR_OK : br_no_memory(err, "the reports");
-}
-
-/* A shorter forecast is not measured, and not printed, s. */
-static const double worth_measuring = 1, worth_printing = 3;
-
-void br_session_announce(const struct br_session *s, const struct br_foreseen *w)
-{
-    struct br_foreseen here = *w;
-    if (s->quiet || !(br_foreseen_seconds(w, br_threads(s->threads)) >= worth_measuring))
-        return;
-    br_foreseen_measure(&here);
-    const double seconds = br_foreseen_seconds(&here, br_threads(s->threads));
-    if (!(seconds >= worth_printing))
-        return;
-    fprintf(stderr, "%zu march%s, about %.2g s, %.2g GB", w->marches, w->marches == 1 ? "" : "es",
-            seconds, w->bytes / 1e9);
-    if (w->untimed)
-        fprintf(stderr, "; the time of %zu that choose%s their steps is not counted", w->untimed,
-                w->untimed == 1 ? "s" : "");
-    fputc('\n', stderr);
 }
 
 void br_session_draw(struct br_session *s, struct br_document *report, struct br_figure figure,

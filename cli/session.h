@@ -5,35 +5,11 @@
 #ifndef BR_CLI_SESSION_H
 #define BR_CLI_SESSION_H
 
+#include "base/kept.h"
 #include "cli/option.h"
 #include "cli/output.h"
 #include "plots/pictures.h"
-#include "solver/scene.h"
-#include "study/foresee/foreseen.h"
-#include "study/foresee/warnings.h"
-#include "study/kept/kept.h"
-#include "study/trade/split.h"
-#include "study/trade/trial.h"
-#include "study/verify/check.h"
 #include "tables/document.h"
-
-/* A scene as a command opens it. Begins as zeros; not to be moved. */
-struct br_opened_scene {
-    char path[1024]; /* of its file */
-    char *text;      /* of the file, or what stands in it by --set; owned */
-    struct br_scene scene;
-};
-
-struct br_session;
-
-/* Finds a scene, loads its file once and reads it, with the keys of --set. Fails as br_scene_find,
- * br_scene_load and br_scene_read do; clear it even then. */
-enum br_status br_opened_scene_read(struct br_opened_scene *scene, const struct br_session *session,
-                                    const char *name, struct br_error *err);
-void br_opened_scene_clear(struct br_opened_scene *scene);
-
-/* Its strings are static, or the scene's. scene NULL: not of one scene. */
-struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
 
 /* Begins with br_session_begin. */
 struct br_session {
@@ -78,10 +54,6 @@ void br_session_report_kept(const struct br_session *session, const struct br_ke
 /* Says what --set has set, in a report without the title of a scene, which says it, too. */
 void br_session_put_set(const struct br_session *session, struct br_document *report);
 
-/* A scene and what --set has set in it, as words of a command line. Owned by the caller; NULL: out
- * of memory. */
-char *br_session_scene(const struct br_session *session, const char *name);
-
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,
                                  struct br_error *err);
@@ -90,10 +62,6 @@ enum br_status br_session_report(struct br_session *session, size_t documents,
  * options ask for no pictures. Takes ownership of the figure. title NULL: the figure's own. */
 void br_session_draw(struct br_session *session, struct br_document *report,
                      struct br_figure figure, const char *title);
-
-/* Prints a sentence on standard error before work of some seconds: "24 marches, about 40 s, 0.3
- * GB". With --quiet nothing is printed. */
-void br_session_announce(const struct br_session *session, const struct br_foreseen *work);
 
 /* Writes the reports and pictures and puts all in place. For each of the formats (NULL-terminated)
  * that --format wants and each report there is a file NAME.EXTENSION; formats that have a table a
@@ -113,24 +81,5 @@ void br_session_close(struct br_session *session);
 
 /* Puts a name before the message of a failure: "example2: ..."; returns its status. */
 enum br_status br_failed_in(struct br_error *err, const char *name);
-
-/* ---- warnings on standard error, before marches begin (warn.c) ---- */
-
-/* Prints them, a line each: "beamrate: warning: ...; ...", with the scene's name where it is not
- * "". */
-void br_print_warnings(const char *scene, const struct br_warnings *warnings);
-
-/* The next two functions print the warnings that are cheap to find for a command's many marches,
- * scene by scene. This one serves cells of studies, runs of `trade --split`, and the paper's
- * examples in `figures`. Fails with BR_BAD_INPUT or BR_NO_MEMORY if a march is refused. */
-enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
-                                  struct br_error *err);
-enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err);
-enum br_status br_warn_of_paper(struct br_error *err);
-
-/* The same for the marches of checks, and of trials of a scene: a refused march is one of their
- * results, not a failure. */
-void br_warn_of_checks(const struct br_check *checks, size_t count);
-void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count);
 
 #endif

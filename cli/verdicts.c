@@ -6,8 +6,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/base/quote.h"
-#include "study/base/sha256.h"
+#include "base/quote.h"
+#include "base/sha256.h"
+#include "cli/provenance.h"
 
 /* Opens, for each format, the file that its option names. */
 static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,
@@ -149,7 +150,8 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
                                   const struct br_check_findings *findings, bool whole,
                                   struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(NULL, session->threads);
+    struct br_provenance provenance;
+    br_provenance_fill(&provenance, session->threads);
     struct br_document *d = &session->document[session->documents - 1];
     struct br_check_findings all = *findings;
     if (v->compare && br_compare(all.checks, all.count, whole, &v->old, &v->comparison, err))
@@ -261,7 +263,8 @@ struct br_check br_study_file_check(struct br_study_file *f, const struct br_opt
     struct br_orders_request *r = &f->request;
     r->jobs = (int)br_option_number(o, BR_OPT_THREADS, 0);
     r->anew = !br_option_given(o, BR_OPT_RESUME);
-    struct br_check check = {.path = r->path,
+    struct br_check check = {.of_program = true,
+                             .path = r->path,
                              .name = r->title     ? r->title
                                      : r->command ? r->command
                                                   : r->path};

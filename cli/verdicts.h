@@ -5,8 +5,8 @@
 #define BR_CLI_VERDICTS_H
 
 #include "cli/session.h"
-#include "study/orders/request.h"
-#include "study/verify/comparison.h"
+#include "orders/expectation/comparison.h"
+#include "orders/request.h"
 #include "tables/reports.h"
 
 /* The files of a command: one for each format that has an option, and the baseline. */

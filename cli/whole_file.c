@@ -9,7 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "study/base/text.h"
+#include "base/text.h"
 #include "tables/json_value.h"
 
 /* The path with symbolic links followed, to be freed. The file need not exist, but its folder. NULL

@@ -2,9 +2,9 @@
 /* Observed orders with their intervals, beside what is expected. */
 #include <math.h>
 
+#include "base/quote.h"
+#include "orders/expectation/check.h"
 #include "plots/pictures.h"
-#include "study/base/quote.h"
-#include "study/verify/check.h"
 
 enum { ROWS = 30, MOST = 100 }; /* with more orders a row is a check; no more rows are drawn */
 

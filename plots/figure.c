@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 
 static struct br_panel *last_panel(struct br_figure *f)
 {

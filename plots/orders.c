@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/quote.h"
+#include "orders/orders.h"
 #include "plots/pictures.h"
-#include "study/base/quote.h"
-#include "study/orders/orders.h"
 
 /* The errors, with the line of their order and its band; those of a joint fit, which is no line,
  * are joined. */

@@ -11,9 +11,9 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/observer.h"
 #include "plots/pictures.h"
-#include "solver/clock.h"
-#include "study/base/observer.h"
 
 extern char **environ;
 

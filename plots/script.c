@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/quote.h"
 #include "plots/pictures.h"
-#include "study/base/quote.h"
 
 enum {
     FONT = 24,

@@ -3,8 +3,8 @@
  * solver, and has an error of its own. */
 #include <math.h>
 
+#include "base/clock.h"
 #include "reference/judge.h"
-#include "solver/clock.h"
 
 /* Where a step advances both fields, each field has a march of its own. */
 struct fine {

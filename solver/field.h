@@ -13,8 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/status.h"
 #include "solver/kind.h"
-#include "solver/status.h"
 
 struct br_function;
 struct br_scene;

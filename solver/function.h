@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "solver/status.h"
+#include "base/status.h"
 
 /* A closed interval, low <= high. */
 struct br_interval {

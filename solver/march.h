@@ -4,8 +4,8 @@
 #ifndef BR_SOLVER_MARCH_H
 #define BR_SOLVER_MARCH_H
 
+#include "base/status.h"
 #include "solver/modes.h"
-#include "solver/status.h"
 
 struct br_method;
 struct br_scene;

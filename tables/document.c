@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "tables/markup.h"
 
 const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR"};

@@ -23,14 +23,14 @@
  * a key that no column has), ignores all later calls, and reports the failure when it is printed.
  *
  * A number stays a number until a format prints it: people get the digits of the column's format,
- * programs (CSV, JSON) all 17. The formats quote foreign text (study/base/quote.h). */
+ * programs (CSV, JSON) all 17. The formats quote foreign text (base/quote.h). */
 #ifndef BR_TABLES_DOCUMENT_H
 #define BR_TABLES_DOCUMENT_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "solver/status.h"
+#include "base/status.h"
 
 /* ---- values ---- */
 

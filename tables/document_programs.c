@@ -3,7 +3,7 @@
 #include <jansson.h>
 #include <string.h>
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 #include "tables/document.h"
 #include "tables/json_value.h"
 

@@ -3,7 +3,7 @@
  * of a verdict's row by their keys. Both have the lines that explain a verdict. */
 #include <string.h>
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 #include "tables/document.h"
 
 /* ---- JUnit ---- */

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "solver/status.h"
-#include "study/base/quote.h"
+#include "base/quote.h"
+#include "base/status.h"
 
 static atomic_bool lacked, parsing;
 

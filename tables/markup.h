@@ -4,7 +4,7 @@
 #ifndef BR_TABLES_MARKUP_H
 #define BR_TABLES_MARKUP_H
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 #include "tables/document.h"
 
 /* A document that is being printed. */

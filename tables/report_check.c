@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/fit/theory.h"
-#include "study/verify/comparison.h"
-#include "tables/report_parts.h"
+#include "orders/expectation/comparison.h"
+#include "tables/report_cells.h"
+#include "tables/reports.h"
 
 const struct br_document_format *const br_check_formats[] = {
     &br_document_text,     &br_document_junit,  &br_document_json,
@@ -25,7 +25,7 @@ static const char *name_of(const struct br_case *c, char name[NAME])
 static const char *source_of(const struct br_check_findings *f)
 {
     for (size_t i = 0; i < f->count; i++)
-        if (!f->checks[i].scene)
+        if (f->checks[i].of_program)
             return "source";
     return "scene";
 }
@@ -71,44 +71,14 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
     }
 }
 
-static void put_cells(struct br_document *d, const struct br_scene *scene,
-                      const struct br_verify_study *v)
-{
-    const size_t last = v->count - 1;
-    for (size_t i = 0; i < (v->n[last] != v->n[0] ? v->count : 1); i++)
-        br_put_more(d, i ? ", %zu" : "    n: %zu", v->n[i]);
-    for (size_t i = 0; i < (v->steps[last] != v->steps[0] ? v->count : 1); i++)
-        br_put_more(d, i ? ", %.10g" : "\n    k: %.10g", br_time_step(scene, v->steps[i]));
-    br_put_more(d, " s\n");
-}
-
-/* The default expectations of a scene without any, as its file would state them. */
+/* The default expectations, as a file would state them. */
 static void put_defaults(struct br_document *d, const struct br_check *check, size_t number)
 {
     char key[NAME], label[1200];
     snprintf(key, sizeof key, "defaults.%zu", number);
     snprintf(label, sizeof label,
              "%s has no verify part. Its defaults, to start from:", check->path);
-    br_put_command(d, key, label, "verify:\n");
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-        const struct br_verify_study *v = &check->verify->study[kind];
-        if (*v->silent)
-            br_put_more(d, "  # %s: theory states no order of the %s.\n", br_verify_names[kind],
-                        v->silent);
-        if (!v->count)
-            continue;
-        br_put_more(d, "  %s:\n", br_verify_names[kind]);
-        put_cells(d, check->scene, v);
-        for (size_t i = 0; i < v->expectations; i++) {
-            const struct br_expectation *e = &v->expectation[i];
-            br_put_more(d, "    %s%s%s: %s +- %g", e->norm->name, e->part ? " " : "",
-                        e->part ? br_part_names[e->part] : "",
-                        br_theory_text(e->order, e->highest, label, sizeof label), e->tolerance);
-            if (*e->why)
-                br_put_more(d, "  # %s", e->why);
-            br_put_more(d, "\n");
-        }
-    }
+    br_put_command(d, key, label, check->defaults);
 }
 
 /* Puts the differences from an earlier check. now: the version of this program. */
@@ -214,7 +184,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
             BR_PUT_ROW(d, br_text(br_verdict_names[c->verdict]), br_text(check->name),
                        br_text(br_verify_names[c->kind]), br_text(c->measure), br_text(c->part),
                        br_number(e->order));
-            br_put_shown(d, "%s +- %g", br_theory_text(e->order, e->highest, order, sizeof order),
+            br_put_shown(d, "%s +- %g", br_range_text(e->order, e->highest, order, sizeof order),
                          e->tolerance);
             BR_PUT_CELLS(d, br_number(e->tolerance), br_if(e->highest > 0, br_number(e->highest)),
                          br_text(*e->why ? e->why : NULL), br_number(c->order.value));
@@ -260,21 +230,16 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     char key[NAME];
     BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, scenes_columns);
     for (const struct br_check *c = f->checks; c < f->checks + f->count; c++)
-        BR_PUT_ROW(d, br_text(c->name), br_text(c->path),
-                   br_truth(c->verify && c->verify->by_default), br_number(c->seconds),
-                   br_number(c->element_steps), br_failure_text(&c->failure),
+        BR_PUT_ROW(d, br_text(c->name), br_text(c->path), br_truth(c->defaults != NULL),
+                   br_number(c->seconds), br_number(c->element_steps), br_failure_text(&c->failure),
                    br_text(*c->problem ? c->problem : NULL), br_text(c->data));
     for (size_t i = 0; i < f->count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
-            const struct br_verify_study *s = &f->checks[i].verify->study[kind];
+        for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].method; kind++) {
             snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
-            if (s->count)
-                br_put_method_facts(d, key, &s->method,
-                                    &(struct br_meshes){f->checks[i].scene, s->n, s->count});
+            br_put_settings(d, key, &f->checks[i].method[kind]);
         }
     for (size_t i = 0; i < f->count; i++)
-        if (f->checks[i].verify && f->checks[i].verify->by_default)
-            put_defaults(d, &f->checks[i], i);
+        put_defaults(d, &f->checks[i], i);
 
     br_put_provenance(d, f->provenance);
 }

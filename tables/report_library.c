@@ -2,8 +2,8 @@
 /* The report of the library's orders; it stands here since study/ knows no reports. */
 #include <math.h>
 
-#include "study/base/text.h"
-#include "study/library/library.h"
+#include "base/text.h"
+#include "orders/library/library.h"
 #include "tables/reports.h"
 
 static enum br_status write_report(const struct br_orders *orders, char **text,
@@ -28,7 +28,7 @@ enum beamrate_status beamrate_orders_report(struct beamrate_orders *orders, cons
 {
     struct br_call call;
     br_call_begin(&call);
-    enum br_status status = br_handle_check(orders, BR_HANDLE_ORDERS, "orders", &call.err);
+    enum br_status status = br_handle_check(orders, &call.err);
     if (!status && !json)
         status = br_fail(&call.err, BR_BAD_INPUT, "json: found NULL, expected a place for a text");
     if (!status) {

@@ -2,8 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/orders/orders.h"
-#include "tables/report_parts.h"
+#include "orders/orders.h"
+#include "tables/report_cells.h"
+#include "tables/reports.h"
 
 static const struct br_quantity *quantity_of(const struct br_orders *o,
                                              const struct br_quantity_orders *of)

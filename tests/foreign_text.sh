@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What others have written (a scene's title, name, remark, file, keys, messages that repeat them)
-# is printed through study/base/quote.h alone: no printf and no fputs of plots/, tables/ and cli/
+# is printed through base/quote.h alone: no printf and no fputs of plots/, tables/ and cli/
 # has such a field among its arguments. usage: foreign_text.sh ROOT
 set -u
 cd "$1" || exit 1
@@ -13,19 +13,17 @@ allowed=$(sed 's/ *#.*//' <<'END'
 * (c|\(\*c\))->(name|title)|row(->|\[i\]\.)name # commands, options
 * (list|rows|br_method_fields|br_field_variables)\[[^,]*\]\.name|list\[i\]\.words->title # our tables
 cli/commit.c e->name                         # of a result, in the list of sets
-cli/help.c list\[i\].title|title              # headings
+cli/beam/topics.c list\[i\].title|title       # headings
+cli/*.c br_program\.name                     # of the program
 plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the figure's own is quoted
-plots/paper.c (figure|f)->title               # captions of the paper
+plots/beam/paper.c (figure|f)->title          # captions of the paper
 tables/document_*.c t->column\[c\]\.key       # a column's
 tables/document_latex.c b->what\.key          # a picture's file: br_is_name
-tables/scene_template.c (key|br_norms\[0\])->(name|unit) # of the rows of schema.c
-tables/sheet_text.c t->title                  # a table's
-tables/split_*.c line\.name                   # a source of error
-tables/run_text.c p->verdict\.message         # a certificate's: a limit and figures
+tables/beam/scene_template.c (key|br_norms\[0\])->(name|unit) # of the rows of schema.c
 END
 )
 
-found=$(for file in plots/*.c tables/*.c cli/*.c; do
+found=$(for file in $(find plots tables cli -name '*.c' | sort); do
     names=$(echo "$allowed" | while read -r which what; do
         case $file in $which) printf '%s|' "$what" ;; esac
     done)
@@ -37,4 +35,4 @@ found=$(for file in plots/*.c tables/*.c cli/*.c; do
         grep -E "((->|\.)$field|[(, ](title|remark|message|caption|path|unit|heading))( *[],)?:]|$)" |
         sed "s|^ *|$file: |"
 done)
-[ -z "$found" ] || { echo "written past study/base/quote.h:" "$found" >&2; exit 1; }
+[ -z "$found" ] || { echo "written past base/quote.h:" "$found" >&2; exit 1; }

@@ -3,9 +3,13 @@
 
 usage: library_orders.py [pandas | matplotlib]: with these instead of what stands in for them.
 """
+import copy
+import json
 import math
+import pickle
 import sys
 import tempfile
+import xml.etree.ElementTree
 from types import SimpleNamespace
 
 import numpy as np
@@ -100,6 +104,7 @@ def check_arrays():
     assumed = br.orders(error, dofs=N ** 2)
     assert "2-D assumed; --dimension 3 gives 2.25" in repr(assumed), assumed
     refused("state the dimension of the mesh", lambda: assumed.assert_order(1.5))
+    assert "dimension" in assumed.order.open and repr(assumed.order).endswith(" (not settled)"), assumed.order
     frame = {"edge": 1 / N, "e": error, "more": 2 * error}
     assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "more"]
     close(br.orders(frame, h="edge", errors="e")["e"].order.value, 1.5)
@@ -147,22 +152,65 @@ def check_grid():
     both.assert_order(1, axis="k")
     refused("e: FAIL", lambda: both.assert_order(1, axis="h"), AssertionError)
     value = br.orders({"h": h, "k": k, "v": 7 + h ** 2 + k}, values="v")["v"]
-    assert (value.limit["in"], value.gci["in"]) == ("h and k", "k"), value.limit
-    close(value.limit["limit"], 7, 1e-6)
+    assert [row["in"] for row in value.limits][-2:] == ["k", "h and k"], value.limits
+    close(value.limit, value.limits[-1]["limit"])
+    close(value.gci, value.limits[-2]["gci_fine"])
+    close(value.limit, 7, 1e-6)
     refused("axis: found 'x', expected 'h' or 'k'", lambda: both.assert_order(1, axis="x"))
 
 
 def check_values():
     found = br.orders(7 + 3 / N ** 2, n=N, values=True)["value"]
-    close(found.limit["limit"], 7)
-    assert found.limit["low"] <= 7 <= found.limit["high"]
-    close(found.gci["p"], 2)
+    close(found.limit, 7)
+    assert found.limit.low <= 7 <= found.limit.high
+    close(found.p, 2)
     finest, before = 7 + 3 / 160 ** 2, 7 + 3 / 80 ** 2
-    close(found.gci["gci_fine"], 1.25 * (before - finest) / finest / 3, 1e-12)  # Celik et al., (7)
+    close(found.gci, 1.25 * (before - finest) / finest / 3, 1e-12)  # Celik et al., (7)
     both = br.orders({"n": N, "e": 1 / N, "cd": 7 + 3 / N ** 2}, values="cd", errors="e")
     assert [q.is_value for q in both.quantities] == [False, True]
-    assert both["e"].limit is None and both["e"].gci is None
-    close(both["cd"].limit["limit"], 7)
+    assert both["e"].limit is both["e"].p is both["e"].gci is None
+    close(both["cd"].limit, 7)
+
+
+def check_numbers():
+    """Orders and limits are numbers, wherever one is wanted."""
+    found = br.orders(3 / N ** 1.5, n=N)
+    order = found.order
+    assert type(order) is br.Number and isinstance(order, float)
+    assert float(order) == order.value == found["error"].order == found["error"].h
+    assert 1.4 < order < 1.6 and order != 2 and order <= 1.5 + 1e-9 and not order > 1.6
+    assert order.low <= order <= order.high and order.open == ""
+    close(2 * order - 1, 2)
+    close(np.array([order, 2.5]).mean(), 2)
+    assert np.isclose(order, 1.5) and np.float64(1) < order and max(order, 1) is order
+    assert f"{order:.2f}" == "1.50" and json.loads(json.dumps(order)) == order
+    assert repr(br.Number(2, 1.5, 2.5)) == str(br.Number(2, 1.5, 2.5)) == "2 [1.5, 2.5]"
+    for other in (copy.copy(order), pickle.loads(pickle.dumps(order))):
+        assert (other, other.low, other.high, other.open) == (order, order.low, order.high, order.open)
+    case = found.check((br.SPACE, 1.5, 0.1)).cases[0]
+    assert case.order == order and case.order.low == order.low, case
+    none = br.orders([4, 2, 1, 1], n=[1, 2, 4, 8], values=True)  # the last two differ by nothing
+    assert all(map(math.isnan, (none.order, none.limit, none.p, none.gci))), none.quantities
+    assert repr(none.order) == "nan" and not none.order > 0 and none.order != none.order
+    refused("found 2 columns, expected one of ['e', 'f'] by name",
+            lambda: br.orders({"n": N, "e": 1 / N, "f": 1 / N}).order)
+
+
+def check_notebook():
+    """The table of a notebook: sizes, then numbers and rates of each column."""
+    error = 3.0 / N ** 2
+    error[2] = np.nan
+    text = br.orders({"n": N, "<l2>": error, "cd": 7 + 1 / N}, errors="<l2>", values="cd")._repr_html_()
+    root = xml.etree.ElementTree.fromstring(f"<div>{text}</div>".replace("<br>", "<br/>"))
+    rows = [["".join(cell.itertext()) for cell in row] for row in root.iter("tr")]
+    assert rows[0] == ["n", "<l2>", "rate", "cd", "rate"], rows
+    assert rows[1] == ["10", "3.000e-02", "", "7.1", ""], rows
+    assert rows[2] == ["20", "7.500e-03", "2.00", "7.05", "1.00"], rows
+    assert rows[3][:2] == ["40", "failed"] and len(rows) == 6, rows
+    assert "".join(root[0].itertext()).startswith("<l2>: order in h 2.0"), text
+    h, k = np.repeat(1 / N, 5), np.tile(0.1 / N, 5)
+    text = br.orders({"h": h, "k": k, "e": h ** 2 + k})._repr_html_()
+    assert "<th>h</th><th>k</th><th>e</th><th>rate in h</th><th>rate in k</th>" in text, text
 
 
 def check_left_out():
@@ -234,6 +282,8 @@ else:
     check_meaning()
     check_grid()
     check_values()
+    check_numbers()
+    check_notebook()
     check_left_out()
     check_plot(Axes)
     check_refusals()

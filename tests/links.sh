@@ -25,7 +25,7 @@ targets() {
 # What stands in backquotes and begins with one of our folders.
 names() {
     sed '/^```/,/^```/d' "$1" | grep -o '`[^` ]*`' | tr -d '`' |
-        grep -E '^(solver|reference|study|tables|plots|cli|tests|docs)/[a-z0-9_/.-]*$'
+        grep -E '^(base|orders|solver|reference|study|tables|plots|cli|tests|docs)/[a-z0-9_/.-]*$'
 }
 
 # Functions, types and arrays of ours in backquotes.
@@ -59,7 +59,7 @@ for page in "$root"/*.md "$root"/docs/*.md "$root"/solver/*.md; do
         [ -e "$root/$name" ] || complain "$page" "no such file: $name"
     done
     for name in $(symbols "$root/$page"); do
-        grep -rqw --include='*.[ch]' "$name" "$root/solver" "$root/reference" "$root/study" \
+        grep -rqw --include='*.[ch]' "$name" "$root/base" "$root/orders" "$root/solver" "$root/reference" "$root/study" \
             "$root/tables" "$root/plots" "$root/cli" || complain "$page" "no such name: $name"
     done
 done

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "cli/extremes_experiment.h"
+#include "cli/beam/extremes_experiment.h"
 
 struct heard {
     char line[512];

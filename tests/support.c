@@ -276,7 +276,7 @@ void br_test_scene_refused(const char *text, bool verify, const char *message)
     struct br_scene scene;
     struct br_verify v = {0};
     const char *path = br_test_scene_file(text);
-    const enum br_status status = verify ? br_verify_read(path, text, &scene, &v, &err)
+    const enum br_status status = verify ? br_verify_read(path, text, NULL, &scene, &v, &err)
                                          : br_scene_read_text(path, text, &scene, &err);
     br_verify_clear(&v);
     br_scene_clear(&scene);
@@ -373,7 +373,8 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
     fclose(file);
     const size_t same = same_bytes(text, stored, tolerance);
     if (same != size)
-        fail_msg("%s is otherwise from here on (./bootstrap update writes it anew): %.200s", path, text + (same < size ? same : size));
+        fail_msg("%s is otherwise from here on (./bootstrap update writes it anew): %.200s", path,
+                 text + (same < size ? same : size));
     free(text);
 }
 

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks of real scenes: what is right passes, what is wrong does not, on any number of threads;
  * and what has moved since an earlier check, and how serious that is. */
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "orders/expectation/comparison.h"
 #include "solver/function.h"
 #include "solver/scene.h"
-#include "study/verify/comparison.h"
+#include "study/scene/method_fields.h"
+#include "study/verify/check.h"
 #include "support.h"
 
 /* A small scene of its own with the default expectations, and its check. */
@@ -16,6 +19,7 @@ struct made_check {
     struct br_scene scene;
     struct br_verify verify;
     struct br_check check;
+    struct br_scene_check of;
 };
 
 /* A rod that is pulled; to be cleared. It may be changed before it is checked. */
@@ -27,13 +31,15 @@ static void made_create(struct made_check *m)
     m->scene.axial.load = br_test_load("sin(x)*(1 + t)");
     MUST(br_verify_default(&m->scene, &m->verify, &err));
     m->verify.study[BR_VERIFY_JOINT].count = 4; /* the fifth cell costs more than all others */
-    m->check = (struct br_check){
-        .path = "made.yaml", .name = "made", .scene = &m->scene, .verify = &m->verify};
+    m->of = (struct br_scene_check){.scene = &m->scene, .verify = &m->verify, .check = &m->check};
+    MUST(br_scene_check_begin(&m->of, "made.yaml", &err));
+    m->check.name = "made";
 }
 
 static void made_clear(struct made_check *m)
 {
     br_check_clear(&m->check);
+    br_scene_check_clear(&m->of);
     br_verify_clear(&m->verify);
     br_load_clear(&m->scene.axial.load);
 }
@@ -43,7 +49,7 @@ static void made_run(struct made_check *m, int threads)
 {
     struct br_error err = {0};
     br_check_clear(&m->check);
-    MUST(br_check_run(&m->check, 1, threads, NULL, &err));
+    MUST(br_check_run(&m->of, 1, threads, NULL, &err));
 }
 
 static const struct br_case *case_of(const struct made_check *m, enum br_verify_kind kind)
@@ -142,15 +148,41 @@ TEST(test_threads)
 
 /* ---- comparisons ---- */
 
+/* A method as a report has it. */
+static json_t *as_json(const struct br_settings *settings)
+{
+    json_t *method = json_object();
+    for (const struct br_setting *s = settings->row; s < settings->row + settings->count; s++) {
+        json_t *value = !*s->text                      ? json_null()
+                        : s->kind == BR_SETTING_NUMBER ? json_real(atof(s->text))
+                        : s->kind == BR_SETTING_COUNT  ? json_integer(atoi(s->text))
+                                                       : json_string(s->text);
+        json_t *in = method;
+        if (s->group && !json_is_object(in = json_object_get(method, s->group)))
+            json_object_set_new(method, s->group, in = *s->text ? json_object() : json_null());
+        if (json_is_object(in))
+            json_object_set_new(in, s->key, value);
+    }
+    return method;
+}
+
+/* Replaces the methods of an earlier check. */
+static void remember(struct br_old_check *old, enum br_verify_kind kind,
+                     const struct br_settings *settings)
+{
+    json_t *of_first = json_object_get(json_object_get(old->json, "methods"), "0");
+    assert_int_equal(json_object_set_new(of_first, br_verify_names[kind], as_json(settings)), 0);
+}
+
 /* What the check itself would have left behind, as the earlier check of a scene of that name. */
 static struct br_old_check as_old(const struct made_check *m, const char *name)
 {
-    struct br_old_check old = {.count = 1};
+    struct br_old_check old = {.path = "old.json", .count = 1};
     const size_t cases = m->check.count;
     old.check = br_allocate(1, sizeof *old.check);
-    old.method = br_allocate(1, sizeof *old.method);
+    old.json = json_pack("{s{s{}}}", "methods", "0");
     struct br_case *copy = br_allocate(cases + 1, sizeof *copy);
-    assert_true(old.check && old.method && copy);
+    assert_true(old.check && old.json && copy);
     memcpy(copy, m->check.cases, cases * sizeof *copy);
     for (size_t i = 0; i < cases; i++)
         copy[i].point = NULL;
@@ -158,7 +190,7 @@ static struct br_old_check as_old(const struct made_check *m, const char *name)
     old.check->cases = copy;
     old.check->name = name;
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        br_old_method_of(&m->verify.study[kind].method, &old.method[0][kind]);
+        remember(&old, (enum br_verify_kind)kind, &m->of.method[kind]);
     return old;
 }
 
@@ -266,26 +298,54 @@ TEST(test_methods)
     made_create(&m);
     made_run(&m, 1);
     struct br_old_check old = as_old(&m, "made");
-    struct br_old_method *method = &old.method[0][BR_VERIFY_TIME];
-    const struct br_old_method same = *method;
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        const bool unsaid = br_method_fields[i].unsaid;
-        strcpy(method->value[i], "another");
-        compare(&m, &old, false,
-                unsaid                  ? BR_SAME
-                : i == BR_METHOD_KERNEL ? BR_NOTE
-                                        : BR_SERIOUS,
-                unsaid ? "" : "made time: another method than the baseline's");
-        *method = same;
+    struct br_settings *now = &m.of.method[BR_VERIFY_TIME], then;
+    for (size_t i = 0; i < now->count; i++) {
+        const bool compared = i < BR_METHOD_FIELDS && !br_method_fields[i].unsaid;
+        then = *now;
+        strcpy(then.row[i].text, "another");
+        then.row[i].kind = BR_SETTING_WORD;
+        remember(&old, BR_VERIFY_TIME, &then);
+        compare(&m, &old, false, compared ? BR_SERIOUS : BR_SAME,
+                compared ? "made time: another method than the baseline's" : "");
     }
-    *method = (struct br_old_method){0}; /* not made then */
+    json_t *of_first = json_object_get(json_object_get(old.json, "methods"), "0");
+    json_object_del(of_first, "time"); /* not made then */
     compare(&m, &old, false, BR_SAME, "");
-    struct br_verify_study *time = &m.verify.study[BR_VERIFY_TIME];
-    time->method.scheme = br_time_scheme_find("adaptive");
-    br_old_method_of(&time->method, method);
+    struct br_method *method = &m.verify.study[BR_VERIFY_TIME].method;
+    method->scheme = br_time_scheme_find("adaptive");
+    br_method_settings(&(struct br_meshes){0}, method, now);
+    remember(&old, BR_VERIFY_TIME, now);
     compare(&m, &old, false, BR_SAME, "");
-    strcpy(method->value[BR_METHOD_TOLERANCE], "2e-06");
+    then = *now;
+    strcpy(then.row[BR_METHOD_TOLERANCE].text, "2e-06");
+    remember(&old, BR_VERIFY_TIME, &then);
     compare(&m, &old, false, BR_SERIOUS, "made time: another method");
+    br_old_check_clear(&old);
+    made_clear(&m);
+}
+
+/* A report that is older than a key means the default; one that never had what all have is none. */
+TEST(test_missing_settings)
+{
+    struct made_check m;
+    struct br_error err = {0};
+    made_create(&m);
+    made_run(&m, 1);
+    struct br_old_check old = as_old(&m, "made");
+    json_t *of_first = json_object_get(json_object_get(old.json, "methods"), "0");
+    json_t *time = json_object_get(of_first, "time");
+    json_object_del(time, "axial_degree");
+    json_object_del(time, "scheme");
+    json_object_del(time, "iteration");
+    MUST(br_compare_check(&m.check, 1, &old, &err));
+    compare(&m, &old, false, BR_SAME, "");
+    for (int missing = 0; missing < 2; missing++) {
+        json_object_set_new(time, "contact", json_array());
+        if (missing)
+            json_object_del(time, "contact");
+        REFUSED(br_compare_check(&m.check, 1, &old, &err), BR_BAD_INPUT,
+                "old.json: methods: found no contact of made time");
+    }
     br_old_check_clear(&old);
     made_clear(&m);
 }

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "made_report.h"
-#include "plots/pictures.h"
+#include "plots/beam/pictures.h"
 #include "study/extremes/extremes.h"
 #include "study/run/history.h"
 #include "study/verify/check.h"

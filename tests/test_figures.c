@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/paper/paper.h"
 #include "support.h"
 

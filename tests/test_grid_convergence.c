@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Limits and uncertainties of values on finer and finer grids: published examples, exact power
  * laws, random sequences, means. */
-#include "study/fit/limits.h"
+#include "orders/limits/limits.h"
 
 #include <float.h>
 #include <math.h>

@@ -10,11 +10,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "orders/program/process.h"
+#include "orders/request.h"
 #include "solver/linear/linear_solver.h"
 #include "study/grid/sweep.h"
-#include "study/kept/kept.h"
-#include "study/orders/process.h"
-#include "study/orders/request.h"
+#include "study/kept/kept_study.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/trade/trial.h"

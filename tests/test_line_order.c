@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One line of errors for each law, with numbers that no other law makes: the law is found, with its
  * order, and no row but the finest is left out: a floor may hide that one. */
-#include "study/fit/line_order.h"
+#include "orders/line/line_order.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/orders/request.h"
+#include "orders/request.h"
 #include "study/scene/file.h"
 #include "support.h"
 

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "study/run/run.h"
-#include "tables/fields_file.h"
-#include "tables/reports.h"
+#include "tables/beam/fields_file.h"
+#include "tables/beam/reports.h"
 #include "tests/support.h"
 
 /* As it is printed: with six digits at least. */

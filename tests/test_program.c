@@ -14,9 +14,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "solver/clock.h"
-#include "study/orders/process.h"
-#include "study/orders/request.h"
+#include "base/clock.h"
+#include "orders/program/process.h"
+#include "orders/request.h"
 
 static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
 static const struct br_resolution_column unknowns = {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/base/quote.h"
+#include "base/quote.h"
 
 static const struct {
     const char *name;

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
-#include "study/reading/reading.h"
+#include "base/words.h"
+#include "orders/reading/reading.h"
 #include "support.h"
 
 /* A table and what it must give: the heading and each row in a line, with a bar behind each field;

@@ -8,12 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plots/pictures.h"
+#include "orders/expectation/comparison.h"
+#include "orders/request.h"
+#include "plots/beam/pictures.h"
 #include "study/foresee/prediction.h"
-#include "study/orders/request.h"
 #include "study/paper/paper.h"
 #include "study/run/run.h"
-#include "study/verify/comparison.h"
+#include "study/scene/method_fields.h"
+#include "tables/beam/reports.h"
 #include "tables/reports.h"
 #include "tests/made_report.h"
 
@@ -32,6 +34,16 @@ static struct br_error err;
 
 /* ---- check ---- */
 
+/* What it has of a field of its method over time. */
+static const char *old_field(const struct br_old_check *old, enum br_method_key field,
+                             char buffer[BR_SETTING_USUAL])
+{
+    const struct br_method method = br_method_default();
+    struct br_settings now;
+    br_method_settings(&(struct br_meshes){0}, &method, &now);
+    return br_old_setting(old, 0, BR_VERIFY_TIME, &now.row[field], buffer);
+}
+
 /* That it is read as this check. */
 static void is_read(const char *text)
 {
@@ -42,14 +54,17 @@ static void is_read(const char *text)
     const struct br_check *made = &old.check[0];
     const struct br_case *c = made->cases;
     const struct br_expectation *e = &c->expected;
-    const struct br_old_method *m = &old.method[0][BR_VERIFY_TIME];
+    char tolerance[BR_SETTING_USUAL];
     assert_int_equal(made->count, 1);
-    assert_true(m->known && !old.method[0][BR_VERIFY_SPACE].known);
+    assert_string_equal(old_field(&old, BR_METHOD_DEGREE, tolerance), "1");
+    assert_string_equal(old_field(&old, BR_METHOD_FRICTION_PARAMETER, tolerance), "");
+    assert_null(old_field(&old, BR_METHOD_CONTACT, tolerance));
     snprintf(found, sizeof found, "%s %s %s %s %d %g %g %g %g %g %g; %g %g %s %s %s; %s",
              made->name, br_verify_names[c->kind], c->measure, c->part, c->verdict == BR_FAIL,
              c->order.value, c->constant, e->order, e->tolerance, e->floor, e->ceiling,
-             made->seconds, made->element_steps, m->value[BR_METHOD_SCHEME],
-             m->value[BR_METHOD_SOLVER], m->value[BR_METHOD_TOLERANCE], old.check[1].name);
+             made->seconds, made->element_steps, old_field(&old, BR_METHOD_SCHEME, tolerance),
+             old_field(&old, BR_METHOD_SOLVER, tolerance),
+             old_field(&old, BR_METHOD_TOLERANCE, tolerance), old.check[1].name);
     assert_string_equal(found, "made time l2 axial 1 2.25 3.5 2.75 0.375 0.75 7.5; 4.25 5.25 "
                                "adaptive banded 0.0625; refused");
     br_old_check_clear(&old);
@@ -59,7 +74,7 @@ TEST(check_is_read)
 {
     is_read("{\"format\": \"beamrate check\", \"version\": 2, \"methods\": {\"0\": {\"time\": "
             "{\"scheme\": \"adaptive\", \"tolerance\": 0.0625, \"solver\": \"banded\", "
-            "\"contact\": \"implicit\", \"friction\": \"exact\"}}}, \"tables\": {\"scenes\": "
+            "\"contact\": [], \"friction\": \"exact\"}}}, \"tables\": {\"scenes\": "
             "[{\"scene\": \"made\", \"seconds\": 4.25, \"element_steps\": 5.25}, {\"scene\": "
             "\"refused\", \"seconds\": 0, \"element_steps\": 0}], \"orders\": [{\"scene\": "
             "\"made\", \"study\": \"time\", \"norm\": \"l2\", \"part\": \"axial\", \"verdict\": "
@@ -297,20 +312,19 @@ static void print_check(FILE *out)
          .cases = now,
          .count = 5,
          .seconds = 2.5,
-         .element_steps = 3e9,
-         .scene = &(struct br_scene){.length = 1}},
+         .element_steps = 3e9},
         {.path = "b.yaml",
          .name = "b",
+         .of_program = true,
          .failure = {BR_BAD_INPUT, "its judge & method"},
          .seconds = 0.5},
-        {.path = "c.yaml", .name = "c", .cases = other, .count = 1},
+        {.path = "c.yaml", .name = "c", .of_program = true, .cases = other, .count = 1},
     };
     struct br_check before[] = {checks[0], {.name = "c", .cases = other, .count = 2}};
     before[0].cases = was;
     before[0].element_steps = 2.5e9; /* 1.2 times as many now: a note */
     before[0].seconds = 5;           /* 2.4 times as many for a step: a warning, never serious */
-    struct br_old_method methods[2][BR_VERIFY_KINDS] = {0};
-    const struct br_old_check old = {.check = before, .method = methods, .count = 2};
+    const struct br_old_check old = {.check = before, .count = 2};
     struct br_comparison comparison;
     MUST(br_compare(checks, 3, true, &old, &comparison, &err));
     struct br_document d = {0};

@@ -466,19 +466,19 @@ TEST(test_set_expectations)
     struct br_error err = {0};
     struct br_scene scene;
     struct br_verify verify;
-    MUST(br_verify_read_set("file.yaml",
-                            TOP "axial: {stiffness: 3 N, viscosity: 1 N s, load: 'x*t [N/m]'}\n"
-                                "verify:\n  space:\n    n: 10, 20, 40, 80, 160\n    k: 0.1 s\n"
-                                "    l2: 2 +- 0.1\n",
-                            "verify.space.n=5, 10, 20, 40, 80\nverify.space.l2=2 +- 0.2", &scene,
-                            &verify, &err));
+    MUST(br_verify_read("file.yaml",
+                        TOP "axial: {stiffness: 3 N, viscosity: 1 N s, load: 'x*t [N/m]'}\n"
+                            "verify:\n  space:\n    n: 10, 20, 40, 80, 160\n    k: 0.1 s\n"
+                            "    l2: 2 +- 0.1\n",
+                        "verify.space.n=5, 10, 20, 40, 80\nverify.space.l2=2 +- 0.2", &scene,
+                        &verify, &err));
     const struct br_verify_study *space = &verify.study[BR_VERIFY_SPACE];
     assert_int_equal(space->count, 5);
     assert_int_equal(space->n[0], 5);
     assert_int_equal(space->line, 8);
     assert_int_equal(space->expectations, 1);
-    assert_true(space->expectation[0].tolerance == 0.2);
-    assert_int_equal(space->expectation[0].line, 0);
+    assert_true(space->expectation[0].band.tolerance == 0.2);
+    assert_int_equal(space->expectation[0].band.line, 0);
     br_verify_clear(&verify);
     br_scene_clear(&scene);
 }

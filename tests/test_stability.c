@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/observer.h"
 #include "solver/laws.h"
-#include "study/base/observer.h"
 #include "study/extremes/extremes.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"

@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "cli_driver.h"
-#include "solver/clock.h"
 #include "support.h"
 
 /* name: of the file, as bytes; text: within YAML's double quotes. */

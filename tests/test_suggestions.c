@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "cli_driver.h"
+#include "orders/request.h"
 #include "study/known/expression.h"
-#include "study/orders/request.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/named_method.h"
@@ -173,7 +173,7 @@ static void say_scene(const char *frame, const char *word, char *answer, size_t 
     struct br_scene scene;
     struct br_error err = {0};
     struct br_verify verify;
-    assert_int_equal(br_verify_read("s.yaml", fill(frame, word), &scene, &verify, &err),
+    assert_int_equal(br_verify_read("s.yaml", fill(frame, word), NULL, &scene, &verify, &err),
                      BR_BAD_INPUT);
     br_scene_clear(&scene);
     br_verify_clear(&verify);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/fit/theory.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
@@ -153,15 +153,17 @@ static void expect(const struct br_scene *scene, enum br_verify_kind kind,
                 continue;
             const struct br_theory t =
                 br_theory_of(&study, part, kind == BR_VERIFY_SPACE ? BR_AXIS_SPACE : BR_AXIS_TIME);
-            struct br_expectation *e = &v->expectation[v->expectations++];
-            *e = (struct br_expectation){.norm = *norm,
-                                         .part = part,
-                                         .order = t.order,
-                                         .highest = t.highest > t.order ? t.highest : 0,
-                                         .tolerance = t.order / 10,
-                                         .floor = NAN,
-                                         .ceiling = NAN};
-            snprintf(e->why, sizeof e->why, "%s", t.reason);
+            struct br_verify_expectation *e = &v->expectation[v->expectations++];
+            *e = (struct br_verify_expectation){.norm = *norm,
+                                                .part = part,
+                                                .band = {
+                                                    .order = t.order,
+                                                    .highest = t.highest > t.order ? t.highest : 0,
+                                                    .tolerance = t.order / 10,
+                                                    .floor = NAN,
+                                                    .ceiling = NAN,
+                                                }};
+            snprintf(e->band.why, sizeof e->band.why, "%s", t.reason);
         }
 }
 
@@ -188,9 +190,9 @@ static void measure(struct br_test_random *r, size_t number, struct tally tally[
         expect(&scene, (enum br_verify_kind)kind, v);
     }
     snprintf(name, sizeof name, "%zu", number);
-    struct br_check check = {
-        .path = "drawn.yaml", .name = name, .scene = &scene, .verify = &verify};
-    MUST(br_check_run(&check, 1, 0, NULL, &err));
+    struct br_check check = {.path = "drawn.yaml", .name = name};
+    MUST(br_check_run(&(struct br_scene_check){.scene = &scene, .verify = &verify, .check = &check},
+                      1, 0, NULL, &err));
     if (check.failure.status)
         print_message("# %zu: %s\n", number, check.failure.message);
     for (const struct br_case *c = check.cases; c < check.cases + check.count; c++) {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "study/grid/sweep.h"

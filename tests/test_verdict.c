@@ -20,7 +20,7 @@ static void make(struct made *m, const double *error, size_t count)
 {
     *m = (struct made){
         .it = {.kind = BR_VERIFY_JOINT,
-               .expected = {&br_norm_l2, BR_PART_TOTAL, 1, 0.1, NAN, NAN, 7, 0, ""},
+               .expected = {1, 0.1, NAN, NAN, 7, 0, ""},
                .measure = "l2",
                .part = "total",
                .unit = "m^(3/2)",

@@ -36,7 +36,7 @@ static const char *with(const char *part)
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    return br_verify_read("scene.yaml", with(part), scene, verify, err);
+    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, err);
 }
 
 TEST(test_whole)
@@ -84,18 +84,18 @@ TEST(test_whole)
     assert_ptr_equal(time->method.scheme, br_time_schemes[0]);
     assert_int_equal(time->method.axial_degree, 1);
     assert_int_equal(time->expectations, 2);
-    const struct br_expectation *l2 = &time->expectation[0], *tip = &time->expectation[1];
+    const struct br_verify_expectation *l2 = &time->expectation[0], *tip = &time->expectation[1];
     assert_ptr_equal(l2->norm, &br_norm_l2);
     assert_int_equal(l2->part, BR_PART_TOTAL);
-    CLOSE(l2->order, 1, 0);
-    CLOSE(l2->tolerance, 0.05, 0);
-    CLOSE(l2->ceiling, 3e-4, 0);
-    assert_true(isnan(l2->floor));
-    assert_int_equal(l2->line, 28);
+    CLOSE(l2->band.order, 1, 0);
+    CLOSE(l2->band.tolerance, 0.05, 0);
+    CLOSE(l2->band.ceiling, 3e-4, 0);
+    assert_true(isnan(l2->band.floor));
+    assert_int_equal(l2->band.line, 28);
     assert_ptr_equal(tip->norm, &br_norm_tip);
     assert_int_equal(tip->part, BR_PART_AXIAL);
-    CLOSE(tip->floor, 1e-5, 0);
-    CLOSE(tip->ceiling, 2e-5, 0);
+    CLOSE(tip->band.floor, 1e-5, 0);
+    CLOSE(tip->band.ceiling, 2e-5, 0);
     br_verify_clear(&v);
     br_scene_clear(&scene);
 }

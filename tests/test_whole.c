@@ -9,11 +9,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/clock.h"
+#include "base/text.h"
 #include "cli/output.h"
 #include "cli_driver.h"
 #include "faults.h"
-#include "solver/clock.h"
-#include "study/base/text.h"
 #include "support.h"
 
 static struct cli_outcome out;

@@ -3,50 +3,34 @@
 # beamrate in Python, cell by cell. In front of it:
 # `export PYTHONPATH=PREFIX/share/beamrate/python`, with the prefix of `meson install`.
 
-# %% A scene, and what to expect of a march of it
+# %% The orders of a table. A notebook shows the last line as a table.
 import numpy as np
 
-import beamrate as br
+import beamrate
 
-scene = br.Scene("example2")
-forecast = scene.foresee(n=20, steps=40)
-print(f"{scene.info.title}: L = {scene.info.length} m, T = {scene.info.duration} s")
-print(f"expected error of w: {forecast.error[br.BENDING].value:.2g} of the largest")
-for warning in forecast.warnings:
-    print(f"warning: {warning.text}")
+n = np.array([10, 20, 40, 80])
+found = beamrate.orders({"n": n, "l2": 3.0 / n**2, "h1": 2.0 / n})
+print(found)
+found
 
-# %% A march, step by step, and its fields
-march = br.March(scene, n=20, steps=40)
-w = np.empty((41, 21, 2))  # every time level; the columns are w and h w_x
-velocity = np.empty((21, 2))
-march.get(br.BENDING, w[0], velocity)
-for level in range(1, 41):
-    march.step()
-    march.get(br.BENDING, w[level], velocity)
-tip = march.tip()
-print(f"tip.axial {tip.displacement[br.AXIAL]!r}")
-print(f"tip.bending {tip.displacement[br.BENDING]!r}")
-print(f"contact_force {tip.contact_force!r}")
-print(f"friction_force {tip.friction_force!r}")
-assert w[40, -1, 0] == tip.displacement[br.BENDING]
+# %% An order is a number with its interval
+order = found["l2"].order
+print(f"l2 converges with order {order:.2f}, between {order.low:.2f} and {order.high:.2f}")
+assert 1.9 < order < 2.1 and np.isclose(order, 2)
 
-# %% The errors of a grid against the exact solution, and their order
-study = br.Study(scene, n=[10, 20, 40], steps=[20, 40, 80])
-for i, n in enumerate(study.n):
-    for j, steps in enumerate(study.steps):
-        print(f"error {n} {steps} {float(study.error[br.TOTAL, i, j])!r}")
-q = study.fit().q
-print(f"q {q.value!r} {q.low!r} {q.high!r}")
-
-# %% The order of numbers of another program, and a verdict
-h = np.array([0.1, 0.05, 0.025, 0.0125])
-orders = br.Orders(np.array([1.01e-2, 2.52e-3, 6.3e-4, 1.57e-4]), h=h)
-case = orders.check((br.SPACE, 2, 0.1)).cases[0]
-print(f"order {case.order.value!r} {case.order.low!r} {case.order.high!r}")
+# %% Errors over h, and a verdict
+found = beamrate.orders([1.01e-2, 2.52e-3, 6.3e-4, 1.57e-4], h=[0.1, 0.05, 0.025, 0.0125])
+order = found.order
+print(f"order {order.value!r} {order.low!r} {order.high!r}")
+case = found.check((beamrate.SPACE, 2, 0.1)).cases[0]
 print(f"verdict {case.verdict}")
+
+# %% Values on three grids: their limit, the observed order, the grid convergence index
+found = beamrate.orders([0.2310, 0.2252, 0.2238], n=[20, 40, 80], values=True)
+print(f"limit {found.limit:.4f}, p = {found.p:.2f}, GCI = {100 * found.gci:.2f} %")
 
 # %% What is wrong is an exception
 try:
-    br.March(scene, 20, 40, scheme="eulr")
-except br.BadInput as error:
+    beamrate.orders({"n": n, "l2": -1.0 / n}, errors="l2")
+except beamrate.BadInput as error:
     print(error)

@@ -15,8 +15,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/status.h"
 #include "solver/kind.h"
-#include "solver/status.h"
 
 struct br_scene;
 

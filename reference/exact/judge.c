@@ -2,9 +2,9 @@
 /* The exact reference as a judge. */
 #include <math.h>
 
+#include "base/clock.h"
 #include "reference/exact/exact.h"
 #include "reference/judge.h"
-#include "solver/clock.h"
 #include "solver/modes.h"
 #include "solver/scene.h"
 

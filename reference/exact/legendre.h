@@ -9,8 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/status.h"
 #include "solver/instruction_set.h"
-#include "solver/status.h"
 
 /* p[k] = p_k(xi), k < count; xi in [0, 1]. */
 void br_legendre(size_t count, double xi, double *p);

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "reference/exact/legendre.h"
 #include "reference/judge.h"
-#include "solver/clock.h"
 #include "solver/modes.h"
 #include "solver/scene.h"
 

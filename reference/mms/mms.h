@@ -4,8 +4,8 @@
 #ifndef BR_REFERENCE_MMS_MMS_H
 #define BR_REFERENCE_MMS_MMS_H
 
+#include "base/status.h"
 #include "solver/kind.h"
-#include "solver/status.h"
 
 struct br_function;
 struct br_scene;

@@ -4,7 +4,7 @@
 #ifndef BR_SOLVER_STATES_H
 #define BR_SOLVER_STATES_H
 
-#include "solver/status.h"
+#include "base/status.h"
 
 #ifdef BR_LONG
 typedef long double real;

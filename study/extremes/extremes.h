@@ -6,8 +6,8 @@
 
 #include <math.h>
 
+#include "base/observer.h"
 #include "solver/march.h"
-#include "study/base/observer.h"
 #include "study/scene/named_method.h"
 
 /* The request to an experiment. All borrowed; 0 or NULL: its default. */

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/each.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
-#include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/resolution.h"
 

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/each.h"
 #include "solver/laws.h"
-#include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/run/run.h"
 #include "study/scene/resolution.h"

@@ -4,7 +4,7 @@
 #ifndef BR_STUDY_FIT_APART_H
 #define BR_STUDY_FIT_APART_H
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/fit/report.h"
 #include "study/grid/differences.h"
 

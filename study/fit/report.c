@@ -12,9 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
+#include "orders/line/line_order.h"
 #include "solver/scene.h"
-#include "study/base/words.h"
-#include "study/fit/line_order.h"
 
 enum { LEAST = 3 }; /* errors for an order */
 /* An error of space above this share of the error of time hides its order. */
@@ -272,6 +272,7 @@ static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
     snprintf(o->by, sizeof o->by, "the joint fit of %zu cells, misfit %.2g %%", fit->points,
              100 * fit->misfit);
     *o->remark = '\0';
+    o->joint = true;
     claim(o, fit->order[axis], NULL);
     /* all count */
     keep_points(o, &(struct line){.study = s, .axis = axis, .at = l.at}, part, NULL);

@@ -21,6 +21,7 @@ struct br_seen_order {
     bool asked; /* false: what is compared has the same h (or k), or the scheme chooses its own
                    steps */
     struct br_estimate order; /* NaN: none is claimed, and the remark says why */
+    bool joint;               /* it is that of the joint fit */
     struct br_theory theory;
     char by[80];      /* the errors that it comes from */
     char remark[400]; /* how it compares to theory, or why none is claimed */

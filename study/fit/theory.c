@@ -27,8 +27,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/words.h"
 #include "solver/scene.h"
-#include "study/base/words.h"
 
 enum { DERIVATIVES = 4 };
 static const double beside = 1e-9; /* of a cell: what lies nearer to its end is at its end */
@@ -198,12 +198,4 @@ static struct br_theory in_k(const struct br_study *s, enum br_part part)
 struct br_theory br_theory_of(const struct br_study *s, enum br_part part, enum br_axis axis)
 {
     return axis == BR_AXIS_SPACE ? in_h(s, part) : in_k(s, part);
-}
-
-const char *br_theory_text(double order, double highest, char *buffer, size_t size)
-{
-    if (isnan(order))
-        return "-";
-    snprintf(buffer, size, highest > order ? "%g to %g" : "%g", order, highest);
-    return buffer;
 }

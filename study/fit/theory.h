@@ -19,7 +19,4 @@ struct br_theory {
  * the scene, norm, method and coarsest mesh, n[0], are read. */
 struct br_theory br_theory_of(const struct br_study *study, enum br_part part, enum br_axis axis);
 
-/* "2", "2 to 4", or "-" for none. buffer: at least 32 characters. */
-const char *br_theory_text(double order, double highest, char *buffer, size_t size);
-
 #endif

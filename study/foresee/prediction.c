@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/march.h"
 #include "solver/scene.h"

@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/words.h"
 #include "solver/proof.h"
-#include "study/base/words.h"
 #include "study/grid/study.h"
 
 /* A load or initial data: exactly one of load, force and data is set. */

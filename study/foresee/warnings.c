@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "reference/energy/energy.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
-#include "study/base/words.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/study.h"
 #include "study/run/run.h"

@@ -7,9 +7,9 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/statement.h"
+#include "base/text.h"
 #include "solver/scene.h"
-#include "study/base/statement.h"
-#include "study/base/text.h"
 #include "study/grid/sweep.h"
 
 /* ---- costs ---- */

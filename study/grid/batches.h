@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/study.h"
 
 /* Which batch each cell belongs to; batches of lower numbers begin first. */
@@ -49,7 +49,7 @@ double br_reference_cost(const struct br_study *study);
  * the largest cost of a slice's cells, ns. -1: out of memory. */
 double br_slice_cells(const struct br_study *study, size_t slices, size_t *slice);
 
-/* A hash of what studies ask (study/base/statement.h), equal on ranks that have read the same
+/* A hash of what studies ask (base/statement.h), equal on ranks that have read the same
  * scenes and options. */
 unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count);
 

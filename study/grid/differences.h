@@ -5,7 +5,7 @@
 #ifndef BR_STUDY_GRID_DIFFERENCES_H
 #define BR_STUDY_GRID_DIFFERENCES_H
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/study.h"
 
 /* Marches a grid (the first of a chain of norms; scene, norm, method, and lists n and steps,

@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_GRID_ENGINE_H
 #define BR_STUDY_GRID_ENGINE_H
 
-#include "solver/status.h"
+#include "base/status.h"
 
 struct br_study;
 struct br_observer;

@@ -14,9 +14,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/status.h"
 #include "solver/instruction_set.h"
 #include "solver/modes.h"
-#include "solver/status.h"
 
 struct br_ladder;
 struct br_ladder_kernel;

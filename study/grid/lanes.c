@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which thread does which batch. No result depends on it. */
-#include "study/base/each.h"
+#include "base/each.h"
 #include "study/grid/lockstep.h"
 
 /* The studies of a call, and their progress. */

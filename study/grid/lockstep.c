@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/scene.h"
 
 /* ---- measuring ---- */

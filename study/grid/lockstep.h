@@ -8,7 +8,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/ladder.h"
 #include "study/grid/study.h"
 

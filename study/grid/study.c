@@ -7,14 +7,6 @@
 
 #include "study/scene/statement.h"
 
-const char *br_flag_name(enum br_flag flag)
-{
-    static const char *const names[BR_CELL_FLAGS] = {
-        "",         "reference",  "round-off",      "failed",
-        "unstable", "stagnation", "not asymptotic", "outlier"};
-    return names[flag];
-}
-
 size_t br_study_cells(const struct br_study *s)
 {
     return s->path ? s->n_count : s->n_count * s->k_count;
@@ -89,7 +81,6 @@ void br_state_study(struct br_statement *s, const struct br_study *study, size_t
 
 /* ---- over h and over k ---- */
 
-const char *const br_axis_letters[] = {"h", "k"};
 
 size_t br_axis_count(const struct br_study *s, int axis)
 {

@@ -4,27 +4,13 @@
 #ifndef BR_STUDY_GRID_STUDY_H
 #define BR_STUDY_GRID_STUDY_H
 
+#include "orders/axis.h"
 #include "reference/judge.h"
 #include "study/grid/engine.h"
 #include "study/grid/norms.h"
 #include "study/scene/resolution.h"
 
 struct br_statement;
-
-/* Why a cell is left out of the fits. */
-enum br_flag {
-    BR_FLAG_NONE,
-    BR_FLAG_REFERENCE, /* the reference's own error is not small beside it */
-    BR_FLAG_ROUND_OFF, /* it is at the round-off of a solver */
-    BR_FLAG_FAILED,    /* the march failed, or its error is not a number */
-    BR_FLAG_UNSTABLE,  /* lagged contact beyond its stability limit: bounded chatter */
-    BR_FLAG_STALLED,   /* finer grids have no smaller error */
-    BR_FLAG_COARSE,    /* the grid is too coarse for the order of the finer ones */
-    BR_FLAG_OUTLIER,   /* the error is far from those of its neighbours */
-    BR_CELL_FLAGS
-};
-const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable",
-                                           "stagnation", "not asymptotic", "outlier" */
 
 struct br_cell {
     struct br_resolution at;
@@ -104,10 +90,6 @@ double br_reference_mesh(const struct br_study *study);
 void br_state_study(struct br_statement *statement, const struct br_study *study, size_t cell);
 
 /* ---- over h and over k ---- */
-
-/* What is refined. */
-enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
-extern const char *const br_axis_letters[BR_AXES]; /* "h", "k" */
 
 /* The number of meshes, or of time steps, of a study; the size of one, m or s (0: the continuous
  * problem); and the index of a cell from its indices along an axis and along the other axis. */

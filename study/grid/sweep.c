@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "study/base/each.h"
-#include "study/base/text.h"
+#include "base/each.h"
+#include "base/text.h"
 #include "study/grid/lockstep.h"
 
 /* ---- the set-up ---- */

@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_GRID_SWEEP_H
 #define BR_STUDY_GRID_SWEEP_H
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/study.h"
 
 /* Runs studies on `threads` threads (0: all cores), all at once: the reference and

@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "study/kept/kept_study.h"
 #include "reference/exact/exact.h"
 #include "study/grid/batches.h"
-#include "study/kept/kept.h"
 
 enum { MOST_EVENTS = 1 << 20 }; /* bytes of the lines that a reference prints */
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 
 /* A recursive descent parser. Each function is named after what it reads, from `at` on, and returns
  * its node. After the first error `at` is the text's end, so that all functions return. */

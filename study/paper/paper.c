@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/each.h"
 #include "reference/printed.h"
 #include "reference/textbook.h"
-#include "study/base/each.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
 

@@ -5,9 +5,9 @@
 #ifndef BR_STUDY_PAPER_PAPER_H
 #define BR_STUDY_PAPER_PAPER_H
 
+#include "base/observer.h"
 #include "reference/exact/exact.h"
 #include "solver/scene.h"
-#include "study/base/observer.h"
 #include "study/grid/study.h"
 #include "study/run/history.h"
 

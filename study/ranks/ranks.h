@@ -5,7 +5,7 @@
 #ifndef BR_STUDY_RANKS_RANKS_H
 #define BR_STUDY_RANKS_RANKS_H
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/study.h"
 
 /* A job of several processes, as the environment of each describes it. */

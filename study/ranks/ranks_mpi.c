@@ -23,9 +23,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "solver/clock.h"
-#include "study/base/quote.h"
-#include "study/base/text.h"
+#include "base/clock.h"
+#include "base/quote.h"
+#include "base/text.h"
 #include "study/grid/batches.h"
 #include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"

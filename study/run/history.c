@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
+#include "base/words.h"
 #include "solver/field.h"
-#include "study/base/words.h"
 
 struct run {
     const struct br_history_request *request;

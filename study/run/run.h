@@ -4,11 +4,11 @@
 #ifndef BR_STUDY_RUN_RUN_H
 #define BR_STUDY_RUN_RUN_H
 
+#include "base/observer.h"
 #include "reference/certificate/certificate.h"
 #include "reference/energy/energy.h"
 #include "solver/march.h"
 #include "solver/scene.h"
-#include "study/base/observer.h"
 #include "study/run/history.h"
 
 /* Fields that are asked for, as bits; 0: those that the scene needs. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/scene/units.h"
 #include "study/scene/value.h"
 
@@ -92,7 +92,7 @@ static enum br_status refuse_two(const struct br_scene_reader *r, size_t row, si
         r, given->line, br_scene_keys[given->origin].name,
         "is given beside %s (%s%s), which makes %s, too, expected one of the two",
         br_scene_keys[other->origin].name, other->line > BR_LAST_LINE ? "" : "line ",
-        br_scene_place(r, other->line, place), br_scene_keys[row].name);
+        br_yaml_place(&r->yaml, other->line, place), br_scene_keys[row].name);
 }
 
 /* Marks a source of a scene's number as used, and the number that the source was made from. */
@@ -159,7 +159,7 @@ static enum br_status refuse_missing(const struct br_scene_reader *r, size_t row
         if (br_scene_row(p->what) == row)
             snprintf(made, sizeof made, "%s", p->words);
     const size_t line = *key->section ? r->given->row[br_scene_row(key->section)].line
-                                      : br_yaml_line(yaml_document_get_root_node(r->document));
+                                      : br_yaml_line(yaml_document_get_root_node(r->yaml.document));
     return br_scene_refuse(r, line, key->name, "missing%s%s, expected %s, in %s, or %s to make it",
                            *key->section ? " in " : "", key->section, key->help, key->unit, made);
 }

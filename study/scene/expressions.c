@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/known/expression.h"
 #include "study/scene/units.h"
 #include "study/scene/value.h"
@@ -95,9 +95,9 @@ static enum br_status read_product(const struct br_scene_value *v, struct br_loa
     bool seen[2] = {false, false};
     const yaml_node_pair_t *end = v->node->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = v->node->data.mapping.pairs.start; p < end; p++) {
-        const yaml_node_t *name = yaml_document_get_node(v->r->document, p->key);
+        const yaml_node_t *name = yaml_document_get_node(v->r->yaml.document, p->key);
         struct br_scene_value factor = *v, at = *v;
-        factor.node = yaml_document_get_node(v->r->document, p->value);
+        factor.node = yaml_document_get_node(v->r->yaml.document, p->value);
         at.node = name;
         if (name->type != YAML_SCALAR_NODE || factor.node->type != YAML_SCALAR_NODE)
             return BR_REFUSE_VALUE(&at, "%s", expected);
@@ -125,7 +125,7 @@ static enum br_status read_load(struct br_scene_value *v)
     if (v->node->type == YAML_MAPPING_NODE)
         return read_product(v, br_scene_target(v));
     const enum br_status status = read_expression(v, &f, applied);
-    return status ? status : br_products(&f, br_scene_target(v), v->r->err);
+    return status ? status : br_products(&f, br_scene_target(v), v->r->yaml.err);
 }
 
 enum br_status br_scene_read_expression(struct br_scene_value *v)

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/base/quote.h"
-#include "study/base/words.h"
+#include "base/quote.h"
+#include "base/words.h"
 #include "study/scene/value.h"
 
 /* Reads one mapping. */
@@ -80,8 +80,8 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
          p < node->data.mapping.pairs.top && !status; p++)
-        status = read_entry(r, section, yaml_document_get_node(r->document, p->key),
-                            yaml_document_get_node(r->document, p->value));
+        status = read_entry(r, section, yaml_document_get_node(r->yaml.document, p->key),
+                            yaml_document_get_node(r->yaml.document, p->value));
     return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
@@ -89,13 +89,13 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
  * have names that begin with it. */
 static enum br_status set_name(const struct br_scene_reader *r)
 {
-    const char *slash = strrchr(r->path, '/');
-    const char *base = slash ? slash + 1 : r->path;
+    const char *slash = strrchr(r->yaml.path, '/');
+    const char *base = slash ? slash + 1 : r->yaml.path;
     const char *dot = strrchr(base, '.');
     const size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
     r->scene->name = br_allocate(length + 1, 1);
     if (!r->scene->name)
-        return br_no_memory(r->err, "the scene");
+        return br_no_memory(r->yaml.err, "the scene");
     memcpy(r->scene->name, base, length);
     br_make_name(r->scene->name);
     return BR_OK;
@@ -104,7 +104,7 @@ static enum br_status set_name(const struct br_scene_reader *r)
 static enum br_status read_document(const struct br_scene_reader *r,
                                     const struct br_scene_asked *asked)
 {
-    const yaml_node_t *root = yaml_document_get_root_node(r->document);
+    const yaml_node_t *root = yaml_document_get_root_node(r->yaml.document);
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
     enum br_status status = read_section(r, "", root);
@@ -120,7 +120,7 @@ static enum br_status read_document(const struct br_scene_reader *r,
     if (!status)
         status = br_scene_check_functions(r, br_yaml_line(root));
     if (!status && asked->take_verify)
-        status = asked->take_verify(r, br_yaml_value(r, NULL, "verify"), asked->self);
+        status = asked->take_verify(r, br_yaml_value(&r->yaml, NULL, "verify"), asked->self);
     return status;
 }
 
@@ -130,18 +130,16 @@ struct target {
     const struct br_scene_asked *asked;
 };
 
-static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
+static enum br_status take_scene(const struct br_yaml *yaml, void *self)
 {
     const struct target *to = self;
     struct br_scene_given given = {0};
-    struct br_scene_reader r = *reader;
-    r.scene = to->scene;
-    r.given = &given;
-    r.set = to->asked->set;
-    const bool failed = (r.set && br_scene_put_sets(&r, to->asked->take_verify)) ||
-                        read_document(&r, to->asked) || (r.set && br_scene_add_to_title(&r)) ||
-                        (r.set && to->asked->text && br_scene_write_text(&r, to->asked->text));
-    return failed ? r.err->status : BR_OK;
+    struct br_scene_reader r = {*yaml, to->scene, &given};
+    r.yaml.set = to->asked->set;
+    const bool failed = (r.yaml.set && br_scene_put_sets(&r, to->asked->take_verify)) ||
+                        read_document(&r, to->asked) || (r.yaml.set && br_scene_add_to_title(&r)) ||
+                        (r.yaml.set && to->asked->text && br_scene_write_text(&r, to->asked->text));
+    return failed ? r.yaml.err->status : BR_OK;
 }
 
 enum br_status br_scene_parse(const char *name, const char *text,

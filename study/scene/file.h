@@ -3,6 +3,7 @@
 #ifndef BR_STUDY_SCENE_FILE_H
 #define BR_STUDY_SCENE_FILE_H
 
+#include "base/load.h"
 #include "study/scene/schema.h"
 
 /* Reads and checks a scene. Every refusal (BR_BAD_INPUT) names file, line, key,
@@ -36,16 +37,7 @@ enum br_status br_scene_parse(const char *name, const char *text,
 
 enum { BR_LONGEST_SCENE = 1 << 20 }; /* bytes */
 
-#define BR_STANDARD_INPUT "/dev/stdin"
-
-/* Loads the whole text of a file, of standard input or of a pipe. *text (out): owned by the caller.
- * Fails with BR_BAD_INPUT if it is longer than `longest` bytes, is not text, or is a named pipe
- * that nothing opens for writing within some seconds; the message names what was expected, as
- * "scene". Also fails with BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
-enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,
-                            struct br_error *err);
-
-/* The same for a scene, of at most BR_LONGEST_SCENE bytes. */
+/* As br_text_load for a scene, of at most BR_LONGEST_SCENE bytes. */
 enum br_status br_scene_load(const char *path, char **text, struct br_error *err);
 
 /* Writes the path of a scene into `path` (out, size bytes): `name` itself if it names a file,

@@ -345,6 +345,45 @@ const char *br_method_taken(const struct br_meshes *on, const struct br_method *
     return text;
 }
 
+static void set_text(const struct br_method_field *f, const struct br_method *m, size_t size,
+                     char *text)
+{
+    char value[BR_METHOD_VALUE] = "";
+    if (br_method_field_reported(f, m))
+        br_method_field_text(f, m, value);
+    snprintf(text, size, "%s", value);
+}
+
+/* A report without a key is older than it: the method was the default one. The rows of the
+ * registries were always there, but for the time schemes. */
+void br_method_settings(const struct br_meshes *on, const struct br_method *m,
+                        struct br_settings *settings)
+{
+    _Static_assert((int)BR_METHOD_FIELDS < (int)BR_MOST_SETTINGS, "there is room for all fields");
+    const struct br_method standard = br_method_default();
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        const bool whole = i == BR_METHOD_DEGREE || (!f->words && f->range.whole);
+        struct br_setting *s = &settings->row[i];
+        *s = (struct br_setting){
+            .name = f->name,
+            .group = f->group,
+            .key = f->group ? f->member : br_method_field_key(f),
+            .kind = whole      ? BR_SETTING_COUNT
+                    : f->words ? BR_SETTING_WORD
+                               : BR_SETTING_NUMBER,
+            .compared = !f->unsaid,
+            .needed = i == BR_METHOD_SOLVER || i == BR_METHOD_CONTACT || i == BR_METHOD_FRICTION,
+        };
+        set_text(f, &standard, sizeof s->usual, s->usual);
+        set_text(f, m, sizeof s->text, s->text);
+    }
+    struct br_setting *taken = &settings->row[BR_METHOD_FIELDS];
+    *taken = (struct br_setting){.key = "solver_taken"};
+    br_method_taken(on, m, taken->text);
+    settings->count = BR_METHOD_FIELDS + 1;
+}
+
 /* The method, with the solver that is used on all meshes if there is only one. The fields that it
  * uses are then known. */
 static struct br_method with_taken(const struct br_method *m, const char *taken)

@@ -4,8 +4,9 @@
 #ifndef BR_STUDY_SCENE_METHOD_FIELDS_H
 #define BR_STUDY_SCENE_METHOD_FIELDS_H
 
+#include "base/words.h"
+#include "orders/expectation/setting.h"
 #include "solver/method.h"
-#include "study/base/words.h"
 
 enum br_method_key {
     BR_METHOD_SCHEME,
@@ -36,9 +37,9 @@ struct br_method_field {
     bool (*in)(const struct br_scene *scene); /* whether the scene models it; NULL: always */
     const char *before, *after;               /* the text around the value in a sentence */
     bool quiet;                               /* left out of sentences where it is the default */
-    bool unsaid;                       /* a property of the machine: a scene cannot choose it */
-    const char *group, *member;        /* its object in JSON, and its key there; or NULL */
-    const char *const *word; /* of the values in names ("p2"); ends with NULL. NULL: the words */
+    bool unsaid;                /* a property of the machine: a scene cannot choose it */
+    const char *group, *member; /* its object in JSON, and its key there; or NULL */
+    const char *const *word;    /* of the values in names ("p2"); ends with NULL. NULL: the words */
 };
 
 extern const struct br_method_field br_method_fields[BR_METHOD_FIELDS];
@@ -96,6 +97,10 @@ struct br_meshes {
  * text (out). */
 const char *br_method_taken(const struct br_meshes *on, const struct br_method *m,
                             char text[BR_METHOD_TEXT]);
+
+/* The settings of a method on its meshes (out): the fields, in their order, and "solver_taken". */
+void br_method_settings(const struct br_meshes *on, const struct br_method *m,
+                        struct br_settings *settings);
 
 /* Writes "scheme euler, solver auto: riccati on avx2, contact lagged, friction none"; "none" is not
  * modelled by the scene. Fields that the method does not use are left out. Returns text (out). */

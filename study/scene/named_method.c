@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
-#include "study/base/words.h"
 #include "study/scene/method_fields.h"
 
 /* ---- the words of a name ---- */

@@ -3,14 +3,10 @@
 #ifndef BR_STUDY_SCENE_RESOLUTION_H
 #define BR_STUDY_SCENE_RESOLUTION_H
 
-#include "solver/status.h"
+#include "base/status.h"
+#include "orders/axis.h"
 
 struct br_scene;
-
-/* A discretisation: n equal elements, `steps` equal time steps of T/steps. */
-struct br_resolution {
-    size_t n, steps;
-};
 
 /* Steps of size k that make up the scene's duration. Refuses k that does not
  * divide it (BR_BAD_INPUT) with the nearest that do. */

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/scene/units.h"
 #include "study/scene/value.h"
 
@@ -198,7 +198,7 @@ enum br_status br_scene_keep_text(const struct br_scene_value *v, const char *te
     char **copy = br_scene_target(v);
     *copy = br_allocate(strlen(text) + 1, 1);
     if (!*copy)
-        return br_no_memory(v->r->err, "the scene");
+        return br_no_memory(v->r->yaml.err, "the scene");
     strcpy(*copy, text);
     return BR_OK;
 }

@@ -4,47 +4,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/base/quote.h"
-#include "study/base/text.h"
-#include "study/base/words.h"
+#include "base/quote.h"
+#include "base/text.h"
+#include "base/words.h"
 #include "study/scene/value.h"
-
-const char *br_scene_place(const struct br_scene_reader *r, size_t line, char text[BR_PLACE])
-{
-    const char *set = r->set;
-    if (line <= BR_LAST_LINE) {
-        snprintf(text, BR_PLACE, "%zu", line);
-        return text;
-    }
-    for (size_t i = BR_LAST_LINE + 1; i < line; i++)
-        set = strchr(set, '\n') + 1;
-    snprintf(text, BR_PLACE, "--set %.*s", (int)strcspn(set, "\n"), set);
-    return text;
-}
-
-void br_scene_sets(const char *set, char text[BR_PLACE])
-{
-    *text = '\0';
-    for (const char *c = set, *end; c; c = *end ? end + 1 : NULL) {
-        end = strchrnul(c, '\n');
-        br_append(text, BR_PLACE - 1, "%s--set %.*s", *text ? ", " : " (with ", (int)(end - c), c);
-    }
-    if (set)
-        br_append(text, BR_PLACE, ")");
-}
 
 /* Places the new node, if there is one, at a line; returns it. */
 static int placed(const struct br_scene_reader *r, int node, size_t line)
 {
     if (node)
-        yaml_document_get_node(r->document, node)->start_mark.line = line - 1;
+        yaml_document_get_node(r->yaml.document, node)->start_mark.line = line - 1;
     return node;
 }
 
 static int add_text(const struct br_scene_reader *r, const char *text, size_t line)
 {
     return placed(r,
-                  yaml_document_add_scalar(r->document, NULL, (const yaml_char_t *)text,
+                  yaml_document_add_scalar(r->yaml.document, NULL, (const yaml_char_t *)text,
                                            (int)strlen(text), YAML_ANY_SCALAR_STYLE),
                   line);
 }
@@ -53,7 +29,7 @@ static int add_text(const struct br_scene_reader *r, const char *text, size_t li
  * without pairs. Returns 0 without memory. */
 static int add_mapping(const struct br_scene_reader *r, int from, size_t line)
 {
-    yaml_document_t *d = r->document;
+    yaml_document_t *d = r->yaml.document;
     const int to = yaml_document_add_mapping(d, NULL, YAML_ANY_MAPPING_STYLE);
     const yaml_node_t *old = from ? yaml_document_get_node(d, from) : NULL;
     bool whole = placed(r, to, old ? br_yaml_line(old) : line);
@@ -67,10 +43,10 @@ static int add_mapping(const struct br_scene_reader *r, int from, size_t line)
 
 static yaml_node_pair_t *find(const struct br_scene_reader *r, int mapping, const char *name)
 {
-    const yaml_node_t *node = yaml_document_get_node(r->document, mapping);
+    const yaml_node_t *node = yaml_document_get_node(r->yaml.document, mapping);
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
          p++) {
-        const yaml_node_t *key = yaml_document_get_node(r->document, p->key);
+        const yaml_node_t *key = yaml_document_get_node(r->yaml.document, p->key);
         if (key->type == YAML_SCALAR_NODE && strcmp(br_yaml_text(key), name) == 0)
             return p;
     }
@@ -84,12 +60,12 @@ static enum br_status descend(const struct br_scene_reader *r, int *at, const ch
 {
     yaml_node_pair_t *pair = find(r, *at, name);
     const int old = pair ? pair->value : 0;
-    if (old && !value && yaml_document_get_node(r->document, old)->type != YAML_MAPPING_NODE)
+    if (old && !value && yaml_document_get_node(r->yaml.document, old)->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, line, name, "has a value, expected a mapping of keys to values");
     const int new = value ? add_text(r, value, line) : add_mapping(r, old, line);
     const int key = pair ? pair->key : add_text(r, name, line);
-    if (!new || !key || (!pair && !yaml_document_append_mapping_pair(r->document, *at, key, new)))
-        return br_no_memory(r->err, "the scene");
+    if (!new || !key || (!pair && !yaml_document_append_mapping_pair(r->yaml.document, *at, key, new)))
+        return br_no_memory(r->yaml.err, "the scene");
     if (pair)
         pair->value = new;
     *at = new;
@@ -110,7 +86,7 @@ static enum br_status put(const struct br_scene_reader *r, char *set, size_t lin
 {
     char *value = strchr(set, '='), *rest = set;
     if (!value || br_not_utf8(set))
-        return br_fail(r->err, BR_BAD_INPUT,
+        return br_fail(r->yaml.err, BR_BAD_INPUT,
                        "--set: found '%.200s', expected KEY=VALUE in UTF-8, like "
                        "'contact.stiffness=2e3 N/m'",
                        set);
@@ -122,7 +98,7 @@ static enum br_status put(const struct br_scene_reader *r, char *set, size_t lin
     for (int at = 1; rest;) {
         const char *name = strsep(&rest, ".");
         if (descend(r, &at, name, rest ? NULL : value, line))
-            return r->err->status;
+            return r->yaml.err->status;
     }
     return BR_OK;
 }
@@ -136,23 +112,23 @@ static bool meet(const char *a, const char *b)
 
 enum br_status br_scene_put_sets(const struct br_scene_reader *r, bool verifies)
 {
-    const yaml_node_t *root = yaml_document_get_root_node(r->document);
+    const yaml_node_t *root = yaml_document_get_root_node(r->yaml.document);
     char place[2][BR_PLACE];
     size_t line = BR_LAST_LINE + 1;
     if (!root || root->type != YAML_MAPPING_NODE)
         return BR_OK; /* the reader refuses the file */
-    for (const char *set = r->set; set; line++) {
+    for (const char *set = r->yaml.set; set; line++) {
         size_t before = BR_LAST_LINE + 1;
-        for (const char *other = r->set; other < set; other = strchr(other, '\n') + 1, before++)
+        for (const char *other = r->yaml.set; other < set; other = strchr(other, '\n') + 1, before++)
             if (meet(other, set))
-                return br_fail(r->err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
-                               br_scene_place(r, before, place[0]),
-                               br_scene_place(r, line, place[1]));
+                return br_fail(r->yaml.err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
+                               br_yaml_place(&r->yaml, before, place[0]),
+                               br_yaml_place(&r->yaml, line, place[1]));
         if (!verifies && meet(set, "verify="))
             return br_scene_refuse(r, line, "verify", "only 'beamrate check' uses it");
         const char *end = strchr(set, '\n');
         char *word = strndup(set, strcspn(set, "\n"));
-        const enum br_status status = word ? put(r, word, line) : br_no_memory(r->err, "the scene");
+        const enum br_status status = word ? put(r, word, line) : br_no_memory(r->yaml.err, "the scene");
         free(word);
         if (status)
             return status;
@@ -168,10 +144,10 @@ enum br_status br_scene_add_to_title(const struct br_scene_reader *r)
     FILE *out = br_text_open(&title, &size);
     if (out)
         fprintf(out, "%s, with ", r->scene->title);
-    for (const char *c = r->set; out && *c; c++)
+    for (const char *c = r->yaml.set; out && *c; c++)
         *c == '\n' ? fputs("; ", out) : fputc(*c, out);
     if (!out || fclose(out) != 0)
-        return br_no_memory(r->err, "the scene");
+        return br_no_memory(r->yaml.err, "the scene");
     free(r->scene->title);
     r->scene->title = title;
     return BR_OK;
@@ -189,8 +165,8 @@ enum br_status br_scene_write_text(const struct br_scene_reader *r, char **text)
         yaml_emitter_set_width(&emitter, -1);
         done = yaml_emitter_open(&emitter);
         if (done) { /* which releases the document, but leaves its directives in it */
-            done = yaml_emitter_dump(&emitter, r->document) && yaml_emitter_close(&emitter);
-            *r->document = (yaml_document_t){0};
+            done = yaml_emitter_dump(&emitter, r->yaml.document) && yaml_emitter_close(&emitter);
+            *r->yaml.document = (yaml_document_t){0};
         }
         yaml_emitter_delete(&emitter);
     }
@@ -199,5 +175,5 @@ enum br_status br_scene_write_text(const struct br_scene_reader *r, char **text)
     if (out)
         free(*text);
     *text = NULL;
-    return br_no_memory(r->err, "the scene");
+    return br_no_memory(r->yaml.err, "the scene");
 }

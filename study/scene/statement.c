@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/base/text.h"
+#include "base/text.h"
 #include "study/known/expression.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/value.h"
@@ -100,8 +100,8 @@ void br_state_method(struct br_statement *s, const struct br_method *m)
  * values as they are. */
 static void print_value(const struct br_scene_reader *r, const struct br_scene_key *k, FILE *out)
 {
-    const yaml_node_t *section = *k->section ? br_yaml_value(r, NULL, k->section) : NULL;
-    const yaml_node_t *node = br_yaml_value(r, section, k->name);
+    const yaml_node_t *section = *k->section ? br_yaml_value(&r->yaml, NULL, k->section) : NULL;
+    const yaml_node_t *node = br_yaml_value(&r->yaml, section, k->name);
     fprintf(out, "%s%s%s:", k->section, *k->section ? "." : "", k->name);
     if (k->kind == BR_KEY_POSITIVE || k->kind == BR_KEY_NOT_NEGATIVE)
         fprintf(out, " %.15g %s", *(const double *)((const char *)r->scene + k->offset), k->unit);
@@ -110,7 +110,7 @@ static void print_value(const struct br_scene_reader *r, const struct br_scene_k
     else
         for (int factor = 0; factor < 2; factor++)
             fprintf(out, "%s %s", factor ? " times" : "",
-                    br_yaml_text(br_yaml_value(r, node, factor ? "history" : "shape")));
+                    br_yaml_text(br_yaml_value(&r->yaml, node, factor ? "history" : "shape")));
     fputc('\n', out);
 }
 
@@ -122,5 +122,5 @@ enum br_status br_scene_data(const struct br_scene_reader *r, char **data)
         if (br_scene_line(r, k) && k->need != BR_MAKES && k->kind != BR_KEY_SECTION &&
             k->kind != BR_KEY_TEXT && k->kind != BR_KEY_VERIFY)
             print_value(r, k, out);
-    return out && fclose(out) == 0 ? BR_OK : br_no_memory(r->err, "the scene's data");
+    return out && fclose(out) == 0 ? BR_OK : br_no_memory(r->yaml.err, "the scene's data");
 }

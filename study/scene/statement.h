@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_SCENE_STATEMENT_H
 #define BR_STUDY_SCENE_STATEMENT_H
 
-#include "study/base/statement.h"
+#include "base/statement.h"
 
 struct br_method;
 struct br_scene;

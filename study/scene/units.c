@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 
 /* ---- tables ---- */
 

@@ -3,72 +3,31 @@
 #ifndef BR_STUDY_SCENE_VALUE_H
 #define BR_STUDY_SCENE_VALUE_H
 
-#include <yaml.h>
-
+#include "base/yaml_text.h"
 #include "study/scene/schema.h"
 
 /* The input and output of the scene reader. All borrowed. */
 struct br_scene_reader {
-    const char *path;
-    yaml_document_t *document;
-    struct br_scene *scene; /* NULL: the file is not a scene */
-    struct br_error *err;
+    struct br_yaml yaml;
+    struct br_scene *scene;       /* NULL: the file is not a scene */
     struct br_scene_given *given; /* the numbers that the file gives */
-    const char *set;              /* of --set: KEY=VALUE, a line each; NULL: none */
 };
-
-/* Reads a document. Its root node is NULL if the file is empty. */
-typedef enum br_status br_yaml_take(const struct br_scene_reader *r, void *self);
-
-/* Parses a text, which must be one YAML document without zero bytes or deep nesting, and calls
- * `take` with it. Fails as `take` does, with BR_BAD_INPUT and the line, or with BR_NO_MEMORY. */
-enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
-                            struct br_error *err);
+#define br_scene_refuse(r, ...) br_yaml_refuse(&(r)->yaml, __VA_ARGS__)
+#define br_scene_pass_on(r, ...) br_yaml_pass_on(&(r)->yaml, __VA_ARGS__)
 
 /* ---- keys that --set has set (set.c) ---- */
 
-/* Their line in the document is behind all of a file, and tells which of them it was. */
-enum { BR_LAST_LINE = 1 << 21, BR_PLACE = 200 };
-
-/* Writes "6", the line of a file, or "--set KEY=VALUE"; returns text (out), which is cut where it
- * is full. */
-const char *br_scene_place(const struct br_scene_reader *r, size_t line, char text[BR_PLACE]);
-
-/* Writes what ends the refusal of a value of the file, which may be due to what is set: " (with
- * --set KEY=VALUE, ...)"; set NULL: nothing. text: out, cut where it is full. */
-void br_scene_sets(const char *set, char text[BR_PLACE]);
-
-/* Sets the keys of r->set in the document. A key that it has not is added, so that its reader
+/* Sets the keys of r->yaml.set in the document. A key that it has not is added, so that its reader
  * judges it. verifies: the part `verify` is read, too. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_scene_put_sets(const struct br_scene_reader *r, bool verifies);
 
-/* Puts r->set behind the title of the scene: no result of it is taken for one of the file. Fails
+/* Puts r->yaml.set behind the title of the scene: no result of it is taken for one of the file. Fails
  * with BR_NO_MEMORY. */
 enum br_status br_scene_add_to_title(const struct br_scene_reader *r);
 
 /* Writes the document, which is empty then, as a text. *text (out): owned by the caller; NULL after
  * a failure (BR_NO_MEMORY). */
 enum br_status br_scene_write_text(const struct br_scene_reader *r, char **text);
-
-/* ---- refusals ---- */
-
-/* Refuses with "path:line: key: ...", or "path: --set KEY=VALUE: key: ..."; returns BR_BAD_INPUT.
- */
-__attribute__((format(printf, 4, 5))) enum br_status br_scene_refuse(
-    const struct br_scene_reader *r, size_t line, const char *key, const char *format, ...);
-
-/* The same with the error of another function. A status other than BR_BAD_INPUT is passed on as it
- * is. BR_OK if there is no error. */
-enum br_status br_scene_pass_on(const struct br_scene_reader *r, size_t line, const char *key,
-                                const struct br_error *inner);
-
-/* The line of a node, from 1, and the text of a scalar. */
-size_t br_yaml_line(const yaml_node_t *node);
-const char *br_yaml_text(const yaml_node_t *node);
-
-/* The value of a key in a mapping (NULL: the whole document); NULL: not given. */
-const yaml_node_t *br_yaml_value(const struct br_scene_reader *r, const yaml_node_t *node,
-                                 const char *key);
 
 /* The line on which a key of the scene is given; 0: it is not. */
 static inline size_t br_scene_line(const struct br_scene_reader *r, const struct br_scene_key *key)

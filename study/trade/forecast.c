@@ -3,9 +3,9 @@
  * this machine, which a few steps show; and the costs of judges (study/grid/batches.h). */
 #include <math.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
+#include "base/each.h"
 #include "solver/scene.h"
-#include "study/base/each.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/batches.h"
 #include "study/trade/trial.h"

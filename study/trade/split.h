@@ -7,7 +7,7 @@
 #ifndef BR_STUDY_TRADE_SPLIT_H
 #define BR_STUDY_TRADE_SPLIT_H
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/study.h"
 #include "study/scene/named_method.h"
 

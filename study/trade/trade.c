@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/linear/linear_solver.h"
 #include "study/fit/fit.h"
 

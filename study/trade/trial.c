@@ -5,12 +5,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "solver/clock.h"
-#include "study/base/each.h"
+#include "base/clock.h"
+#include "base/each.h"
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/sweep.h"
-#include "study/kept/kept.h"
+#include "study/kept/kept_study.h"
 #include "study/scene/statement.h"
 
 const char *const br_trial_end_names[BR_TRIAL_ENDS] = {

@@ -7,7 +7,7 @@
 #ifndef BR_STUDY_TRADE_TRIAL_H
 #define BR_STUDY_TRADE_TRIAL_H
 
-#include "study/base/observer.h"
+#include "base/observer.h"
 #include "study/grid/study.h"
 #include "study/scene/named_method.h"
 

@@ -10,7 +10,7 @@
 /* The studies of one kind of one check: over space and time a chain of norms for each pair of
  * neighbours, jointly one for the whole path. */
 struct section {
-    const struct br_check *check;
+    const struct br_scene_check *check;
     enum br_verify_kind kind;
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
@@ -40,7 +40,8 @@ static size_t norm_index(const struct section *s, const struct br_norm *norm)
 
 /* ---- the plan ---- */
 
-static void add_section(struct plan *plan, const struct br_check *check, enum br_verify_kind kind)
+static void add_section(struct plan *plan, const struct br_scene_check *check,
+                        enum br_verify_kind kind)
 {
     struct section *s = &plan->section[plan->sections];
     *s = (struct section){.check = check, .kind = kind, .first = plan->heads};
@@ -56,7 +57,8 @@ static void add_section(struct plan *plan, const struct br_check *check, enum br
     plan->sections++;
 }
 
-struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h)
+struct br_study br_check_study(const struct br_scene_check *check, enum br_verify_kind kind,
+                               size_t h)
 {
     const struct br_verify_study *v = &check->verify->study[kind];
     const bool joint = kind == BR_VERIFY_JOINT;
@@ -93,14 +95,14 @@ static void fill_section(const struct plan *plan, const struct section *s)
         }
 }
 
-static enum br_status make_plan(struct plan *plan, const struct br_check *checks, size_t count,
-                                struct br_error *err)
+static enum br_status make_plan(struct plan *plan, const struct br_scene_check *checks,
+                                size_t count, struct br_error *err)
 {
     plan->section = br_allocate(count * BR_VERIFY_KINDS, sizeof *plan->section);
     if (!plan->section)
         return br_no_memory(err, "the check");
     for (size_t i = 0; i < count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS && checks[i].scene; kind++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
             add_section(plan, &checks[i], (enum br_verify_kind)kind);
     plan->study = br_allocate(plan->heads * plan->norms, sizeof *plan->study);
     if (!plan->study)
@@ -129,7 +131,7 @@ static double refinement(enum br_verify_kind kind, struct br_resolution at)
 
 /* Point i of a section in one norm and component. */
 static struct br_point point_at(const struct plan *plan, const struct section *s, size_t i,
-                                const struct br_expectation *e)
+                                const struct br_verify_expectation *e)
 {
     const bool joint = s->kind == BR_VERIFY_JOINT;
     const struct br_study *study = study_in(plan, s, joint ? 0 : i, norm_index(s, e->norm));
@@ -163,11 +165,11 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
 }
 
 static enum br_status conclude_case(const struct plan *plan, const struct section *s,
-                                    const struct br_expectation *e, struct br_case *c,
+                                    const struct br_verify_expectation *e, struct br_case *c,
                                     struct br_error *err)
 {
     c->kind = s->kind;
-    c->expected = *e;
+    c->expected = e->band;
     c->measure = e->norm->name;
     c->part = br_part_names[e->part];
     c->unit = e->norm->unit;
@@ -193,15 +195,17 @@ static enum br_status check_verifiable(const struct plan *plan, const struct sec
         const struct br_error *failure = &plan->study[s->first + h].failure;
         if (failure->status && (failure->status == BR_BAD_INPUT || s->kind == BR_VERIFY_JOINT))
             return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: verify: %s: the scene cannot be verified: %s", s->check->path,
-                           study_of(s)->line, br_verify_names[s->kind], failure->message);
+                           "%s:%zu: verify: %s: the scene cannot be verified: %s",
+                           s->check->check->path, study_of(s)->line, br_verify_names[s->kind],
+                           failure->message);
     }
     return BR_OK;
 }
 
-static void add_cost(const struct br_study *study, struct br_check *check)
+static void add_cost(const struct br_study *study, const struct br_scene *scene,
+                     struct br_check *check)
 {
-    const double fields = check->scene->axial.modelled + check->scene->bending.modelled;
+    const double fields = scene->axial.modelled + scene->bending.modelled;
     if (study->failure.status)
         return;
     for (size_t i = 0; i < br_study_cells(study); i++) {
@@ -216,34 +220,36 @@ static void add_cost(const struct br_study *study, struct br_check *check)
 }
 
 static enum br_status conclude_section(const struct plan *plan, const struct section *s,
-                                       struct br_check *check, struct br_error *err)
+                                       struct br_error *err)
 {
     const struct br_verify_study *v = study_of(s);
+    struct br_check *check = s->check->check;
     enum br_status status = check_verifiable(plan, s, err);
     for (size_t h = 0; h < s->heads && !status; h++) {
         for (size_t m = 0; m < s->norms; m++)
             if (!study_in(plan, s, h, m)->failure.status)
                 br_flag_beside(study_in(plan, s, h, m));
-        add_cost(study_in(plan, s, h, 0), check);
+        add_cost(study_in(plan, s, h, 0), s->check->scene, check);
     }
     for (size_t i = 0; i < v->expectations && !status; i++)
         status = conclude_case(plan, s, &v->expectation[i], &check->cases[check->count++], err);
     return status;
 }
 
-static enum br_status conclude_check(const struct plan *plan, struct br_check *check,
+static enum br_status conclude_check(const struct plan *plan, const struct br_scene_check *of,
                                      struct br_error *err)
 {
+    struct br_check *check = of->check;
     size_t cases = 0;
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        cases += check->verify->study[kind].expectations;
+        cases += of->verify->study[kind].expectations;
     check->cases = br_allocate(cases, sizeof *check->cases);
     if (!check->cases)
         return br_no_memory(err, "the verdicts");
     struct br_error failure = {0};
     for (size_t i = 0; i < plan->sections && !failure.status; i++)
-        if (plan->section[i].check == check)
-            conclude_section(plan, &plan->section[i], check, &failure);
+        if (plan->section[i].check == of)
+            conclude_section(plan, &plan->section[i], &failure);
     if (failure.status && failure.status != BR_BAD_INPUT)
         return br_fail(err, failure.status, "%s", failure.message);
     if (failure.status)
@@ -252,55 +258,24 @@ static enum br_status conclude_check(const struct plan *plan, struct br_check *c
     return BR_OK;
 }
 
-enum br_status br_check_run(struct br_check *checks, size_t count, int threads,
+enum br_status br_check_run(const struct br_scene_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err)
 {
     for (size_t i = 0; i < count; i++) {
-        if (!checks[i].scene)
-            continue;
-        checks[i].failure = (struct br_error){0};
-        checks[i].cases = NULL;
-        checks[i].count = 0;
-        checks[i].seconds = checks[i].element_steps = 0;
+        struct br_check *check = checks[i].check;
+        check->failure = (struct br_error){0};
+        check->cases = NULL;
+        check->count = 0;
+        check->seconds = check->element_steps = 0;
     }
     struct plan plan = {0};
     enum br_status status = make_plan(&plan, checks, count, err);
     if (!status)
         status = br_study_run_each(plan.study, plan.heads, threads, observer, err);
     for (size_t i = 0; i < count && !status; i++)
-        status = checks[i].scene ? conclude_check(&plan, &checks[i], err) : BR_OK;
+        status = conclude_check(&plan, &checks[i], err);
     for (size_t i = 0; i < count && status; i++)
-        br_check_clear(&checks[i]);
+        br_check_clear(checks[i].check);
     clear_plan(&plan);
     return status;
-}
-
-void br_check_clear(struct br_check *check)
-{
-    for (size_t i = 0; i < check->count; i++)
-        free(check->cases[i].point);
-    free(check->cases);
-    check->cases = NULL;
-    check->count = 0;
-}
-
-size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)
-{
-    size_t failures = 0;
-    *first = NULL;
-    for (size_t i = 0; i < count; i++)
-        if (checks[i].failure.status) {
-            *first = *first ? *first : &checks[i];
-            failures++;
-        }
-    return failures;
-}
-
-size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict)
-{
-    size_t tally = 0;
-    for (size_t i = 0; i < count; i++)
-        for (size_t c = 0; c < checks[i].count; c++)
-            tally += checks[i].cases[c].verdict == verdict;
-    return tally;
 }

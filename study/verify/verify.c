@@ -4,10 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/fit/theory.h"
-
-const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
 
 size_t br_verify_points(enum br_verify_kind kind, size_t cells)
 {
@@ -70,22 +68,22 @@ static void expect(const struct br_scene *scene, struct br_verify_study *v,
                    enum br_verify_kind kind, enum br_part part)
 {
     const struct br_theory t = theory_of(scene, v, kind, part);
-    struct br_expectation *e = &v->expectation[v->expectations];
+    struct br_verify_expectation *e = &v->expectation[v->expectations];
     if (isnan(t.order)) {
         br_append(v->silent, sizeof v->silent, "%s%s: %s", *v->silent ? "; " : "",
                   br_part_names[part], t.reason);
         return;
     }
-    *e = (struct br_expectation){
+    *e = (struct br_verify_expectation){
         .norm = br_norms[0],
         .part = part,
-        .order = t.order,
-        .highest = t.highest > t.order ? t.highest : 0,
-        .tolerance = t.order / 10,
-        .floor = NAN,
-        .ceiling = NAN,
+        .band = {.order = t.order,
+                 .highest = t.highest > t.order ? t.highest : 0,
+                 .tolerance = t.order / 10,
+                 .floor = NAN,
+                 .ceiling = NAN},
     };
-    snprintf(e->why, sizeof e->why, "%s", t.reason);
+    snprintf(e->band.why, sizeof e->band.why, "%s", t.reason);
     v->expectations++;
 }
 
@@ -148,11 +146,13 @@ static enum br_status check_cells(const struct br_scene *scene, enum br_verify_k
 }
 
 static enum br_status check_expectation(const struct br_scene *scene,
-                                        const struct br_expectation *e, struct br_error *err)
+                                        const struct br_verify_expectation *expected,
+                                        struct br_error *err)
 {
-    const char *part = br_part_names[e->part];
-    if (!br_models(scene, e->part))
-        return br_fail(err, BR_BAD_INPUT, "the scene has no %s part", part);
+    const struct br_expectation *e = &expected->band;
+    if (!br_models(scene, expected->part))
+        return br_fail(err, BR_BAD_INPUT, "the scene has no %s part",
+                       br_part_names[expected->part]);
     if (!(e->order > 0 && e->tolerance > 0))
         return br_fail(err, BR_BAD_INPUT,
                        "found %g +- %g, expected an order > 0 and a tolerance > 0", e->order,
@@ -181,17 +181,19 @@ static const struct br_expectation *find(const struct br_verify_study *v,
 {
     for (size_t i = 0; i < v->expectations; i++)
         if (v->expectation[i].norm == norm && v->expectation[i].part == part)
-            return &v->expectation[i];
+            return &v->expectation[i].band;
     return NULL;
 }
 
 /* The total is at most the sum of its components and at least each of them: its order is the lower
  * one of theirs. */
 static enum br_status check_total(const struct br_verify_study *v,
-                                  const struct br_expectation *total, struct br_error *err)
+                                  const struct br_verify_expectation *expected,
+                                  struct br_error *err)
 {
-    const struct br_expectation *axial = find(v, total->norm, BR_PART_AXIAL);
-    const struct br_expectation *bending = find(v, total->norm, BR_PART_BENDING);
+    const struct br_expectation *axial = find(v, expected->norm, BR_PART_AXIAL);
+    const struct br_expectation *bending = find(v, expected->norm, BR_PART_BENDING);
+    const struct br_expectation *total = &expected->band;
     if (!axial || !bending)
         return BR_OK;
     const double low = fmin(axial->order - axial->tolerance, bending->order - bending->tolerance);
@@ -216,10 +218,10 @@ static enum br_status check_study(const struct br_scene *scene, enum br_verify_k
         status = br_fail(err, BR_BAD_INPUT,
                          "nothing is expected; expected a line like 'l2 axial: 2 +- 0.1'");
     for (size_t i = 0; i < v->expectations && !status; i++) {
-        const struct br_expectation *e = &v->expectation[i];
-        *line = e->line;
+        const struct br_verify_expectation *e = &v->expectation[i];
+        *line = e->band.line;
         status = check_expectation(scene, e, err);
-        if (!status && find(v, e->norm, e->part) != e)
+        if (!status && find(v, e->norm, e->part) != &e->band)
             status = br_fail(err, BR_BAD_INPUT, "%s %s is given twice", e->norm->name,
                              br_part_names[e->part]);
         if (!status && e->part == BR_PART_TOTAL)

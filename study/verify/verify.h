@@ -5,33 +5,14 @@
 #ifndef BR_STUDY_VERIFY_VERIFY_H
 #define BR_STUDY_VERIFY_VERIFY_H
 
+#include "orders/expectation/case.h"
 #include "study/grid/study.h"
 
-enum br_verify_kind {
-    BR_VERIFY_SPACE, /* over h, at one k: each mesh against the next, so the time error is the same
-                      */
-    BR_VERIFY_TIME,  /* over k, on one mesh: each step against the next, likewise */
-    BR_VERIFY_JOINT, /* h and k together, against the solution of the continuous problem: a scheme
-                        for another problem converges, too, but not to this solution */
-    BR_VERIFY_KINDS,
-};
-extern const char *const br_verify_names[BR_VERIFY_KINDS];
-
-/* An order needs at least four errors: two to fit it, two to check it. Of more than five errors the
- * finest five count: coarse ones would outweigh a stall at the end, or hide an order that is
- * reached later. */
-enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
-
-/* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */
-struct br_expectation {
+/* What is expected of one component in one norm. */
+struct br_verify_expectation {
     const struct br_norm *norm;
     enum br_part part;
-    double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
-    double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
-    size_t line;             /* in the scene's file; 0: a default */
-    double highest; /* > order: or the errors fall by orders up to highest + tolerance, which
-                       do not rise with refinement: two powers of z; else 0 */
-    char why[160];  /* of a default: why not the formal order; or "" */
+    struct br_expectation band; /* of C in the norm's unit */
 };
 
 enum { BR_MOST_EXPECTATIONS = BR_MOST_NORMS * BR_PARTS };
@@ -41,7 +22,7 @@ struct br_verify_study {
     size_t count;      /* of cells; 0: this study is not done */
     size_t *n, *steps; /* count each, from coarse to fine; owned */
     struct br_method method;
-    struct br_expectation expectation[BR_MOST_EXPECTATIONS];
+    struct br_verify_expectation expectation[BR_MOST_EXPECTATIONS];
     size_t expectations;
     char silent[512]; /* of defaults: of which components theory states no order, and why; or "" */
 };
@@ -74,13 +55,9 @@ void br_verify_clear(struct br_verify *verify);
 
 /* Reads a scene as br_scene_read_text does, and its expectations: its part `verify`
  * (an example is in study/scenes/example1.yaml), or else the default. The caller clears both, even
- * after a failure. */
-enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
-                              struct br_verify *verify, struct br_error *err);
-
-/* The same with keys of --set, as in struct br_scene_asked; NULL: none. */
-enum br_status br_verify_read_set(const char *name, const char *text, const char *set,
-                                  struct br_scene *scene, struct br_verify *verify,
-                                  struct br_error *err);
+ * after a failure. set: keys of --set, as in struct br_scene_asked; NULL: none. */
+enum br_status br_verify_read(const char *name, const char *text, const char *set,
+                              struct br_scene *scene, struct br_verify *verify,
+                              struct br_error *err);
 
 #endif

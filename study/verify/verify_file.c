@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/base/words.h"
+#include "base/words.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/value.h"
@@ -112,7 +112,7 @@ static enum br_status make_cells(struct study_part *b)
     v->n = br_allocate(count, sizeof *v->n);
     v->steps = br_allocate(count, sizeof *v->steps);
     if (!v->n || !v->steps)
-        return br_no_memory(b->r->err, "what is expected");
+        return br_no_memory(b->r->yaml.err, "what is expected");
     v->count = count;
     if (b->kind == BR_VERIFY_JOINT && b->n_count == b->k_count)
         for (size_t i = 1; i < count; i++)
@@ -136,7 +136,7 @@ static enum br_status make_cells(struct study_part *b)
 /* ---- expectations ---- */
 
 /* "l2", "l2 axial": the norm and the component; false: it is neither. */
-static bool parse_what(const char *text, struct br_expectation *e)
+static bool parse_what(const char *text, struct br_verify_expectation *e)
 {
     char norm[64], part[64] = "total", rest;
     const int words = sscanf(text, "%63s %63s %c", norm, part, &rest);
@@ -152,7 +152,7 @@ static bool parse_what(const char *text, struct br_expectation *e)
 }
 
 /* "at most 3e-4 m^(3/2)" or "constant 2e-4 to 3e-4 m^(3/2)" */
-static bool parse_range(const char *text, struct br_expectation *e)
+static bool parse_range(const char *text, const char *unit, struct br_expectation *e)
 {
     const char *ceiling = br_skip_word(text, "at most");
     if (!ceiling) {
@@ -161,13 +161,14 @@ static bool parse_range(const char *text, struct br_expectation *e)
         ceiling = br_skip_word(floor, "to");
     }
     const char *end = ceiling ? br_read_number(ceiling, &e->ceiling) : NULL;
-    end = br_skip_word(end, e->norm->unit);
+    end = br_skip_word(end, unit);
     return end && !*end;
 }
 
 /* "2 +- 0.1" or "2 to 4 +- 0.1", and perhaps a range of the constant behind a comma */
-static bool parse_expectation(const char *text, struct br_expectation *e)
+static bool parse_expectation(const char *text, struct br_verify_expectation *expected)
 {
+    struct br_expectation *e = &expected->band;
     e->floor = e->ceiling = NAN;
     const char *end = br_read_number(text, &e->order), *to = br_skip_word(end, "to");
     end = br_skip_word(to ? br_read_number(to, &e->highest) : end, "+-");
@@ -175,14 +176,14 @@ static bool parse_expectation(const char *text, struct br_expectation *e)
     if (!end || !*end)
         return end != NULL;
     end = br_skip_word(end, ",");
-    return end && parse_range(end, e);
+    return end && parse_range(end, expected->norm->unit, e);
 }
 
 static enum br_status read_expectation(struct study_part *b, const char *what,
                                        const yaml_node_t *node)
 {
     const size_t line = br_yaml_line(node);
-    struct br_expectation e = {.line = line};
+    struct br_verify_expectation e = {.band.line = line};
     char text[BR_SUGGESTION];
     if (!parse_what(what, &e))
         return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s%s",
@@ -253,8 +254,8 @@ static enum br_status read_block(struct study_part *b, const yaml_node_t *node)
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
          p < node->data.mapping.pairs.top && !status; p++)
-        status = read_key(b, yaml_document_get_node(r->document, p->key),
-                          yaml_document_get_node(r->document, p->value));
+        status = read_key(b, yaml_document_get_node(r->yaml.document, p->key),
+                          yaml_document_get_node(r->yaml.document, p->value));
     if (!status)
         status = read_lists(b);
     if (!status)
@@ -271,8 +272,8 @@ static void drop_lines(struct br_verify *verify)
         struct br_verify_study *v = &verify->study[kind];
         v->line = v->line > BR_LAST_LINE ? 0 : v->line;
         for (size_t i = 0; i < v->expectations; i++)
-            if (v->expectation[i].line > BR_LAST_LINE)
-                v->expectation[i].line = 0;
+            if (v->expectation[i].band.line > BR_LAST_LINE)
+                v->expectation[i].band.line = 0;
     }
 }
 
@@ -284,7 +285,7 @@ static enum br_status read_studies(const struct br_scene_reader *r, const yaml_n
                                "expected a mapping with space, time or joint");
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
          p++) {
-        const yaml_node_t *name = yaml_document_get_node(r->document, p->key);
+        const yaml_node_t *name = yaml_document_get_node(r->yaml.document, p->key);
         const char *key =
             name->type == YAML_SCALAR_NODE ? br_yaml_text(name) : "a list or a mapping";
         char expected[BR_EXPECTED];
@@ -296,7 +297,8 @@ static enum br_status read_studies(const struct br_scene_reader *r, const yaml_n
                                    br_expected(key, br_verify_names, BR_VERIFY_KINDS, expected));
         struct study_part b = {
             .r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
-        const enum br_status status = read_block(&b, yaml_document_get_node(r->document, p->value));
+        const enum br_status status =
+            read_block(&b, yaml_document_get_node(r->yaml.document, p->value));
         free(b.n);
         free(b.k);
         if (status)
@@ -314,21 +316,15 @@ static enum br_status take(const struct br_scene_reader *r, const yaml_node_t *n
 {
     struct br_verify *verify = self;
     const enum br_status status =
-        node ? read_studies(r, node, verify) : br_verify_default(r->scene, verify, r->err);
+        node ? read_studies(r, node, verify) : br_verify_default(r->scene, verify, r->yaml.err);
     return status ? status : br_scene_data(r, &verify->data);
 }
 
-enum br_status br_verify_read_set(const char *name, const char *text, const char *set,
-                                  struct br_scene *scene, struct br_verify *verify,
-                                  struct br_error *err)
+enum br_status br_verify_read(const char *name, const char *text, const char *set,
+                              struct br_scene *scene, struct br_verify *verify,
+                              struct br_error *err)
 {
     const struct br_scene_asked asked = {.take_verify = take, .self = verify, .set = set};
     *verify = (struct br_verify){0};
     return br_scene_parse(name, text, &asked, scene, err);
-}
-
-enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
-                              struct br_verify *verify, struct br_error *err)
-{
-    return br_verify_read_set(name, text, NULL, scene, verify, err);
 }

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/scene.h"
 #include "tests/support.h"
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/scene.h"
 #include "study/foresee/foreseen.h"
 #include "study/grid/sweep.h"

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/clock.h"
 #include "reference/exact/exact.h"
-#include "solver/clock.h"
 #include "solver/method.h"
 #include "study/scene/file.h"
 #include "tests/support.h"

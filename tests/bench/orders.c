@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/orders/orders.h"
+#include "orders/orders.h"
 
 enum { STUDIES = 400, MOST_ROWS = 64 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <stdlib.h>
 
-#include "solver/clock.h"
+#include "base/clock.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "tests/bench/bench.h"

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "solver/linear/linear_solver.h"
-#include "study/base/words.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"

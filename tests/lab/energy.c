@@ -3,10 +3,10 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "tests/lab/energy.h"
+#include "base/each.h"
 #include "solver/laws.h"
 #include "solver/method.h"
-#include "tests/lab/energy.h"
-#include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/file.h"
 

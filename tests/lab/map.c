@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "tests/lab/map.h"
-#include "study/base/each.h"
+#include "base/each.h"
 #include "tests/support.h"
 
 enum { SEEDS = 10, SAMPLE = 6, MANY = 100 };

@@ -18,8 +18,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "study/fit/laws.h"
-#include "study/orders/orders.h"
+#include "orders/line/laws.h"
+#include "orders/orders.h"
 #include "tests/lab/grids.h"
 #include "tests/lab/others.h"
 #include "tests/lab/published.h"

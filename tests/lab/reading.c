@@ -31,7 +31,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/orders/request.h"
+#include "orders/request.h"
 #include "tests/support.h"
 
 enum {

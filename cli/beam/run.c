@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* beamrate run SCENE: marches one scene. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/beam/run.h"
+#include "base/clock.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "plots/beam/pictures.h"
+#include "study/foresee/prediction.h"
+#include "study/ranks/ranks.h"
+#include "tables/beam/fields_file.h"
+#include "tables/beam/reports.h"
+
+/* The files of --out that are written while it marches. */
+enum { HISTORY, FIELDS_CSV, FIELDS_XDMF, FILES };
+enum { PICTURE_ROWS = 2000 };
+static const char *const file_names[] = {"history.csv", "fields.csv", "fields.xdmf"};
+
+struct run {
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
+    const char *out, *json;           /* paths of these options; NULL: not given */
+    struct br_run_plan plan;
+    struct br_prediction prediction;
+    struct br_warnings warnings;
+    struct br_run_report report;
+    struct br_provenance provenance;
+    struct br_whole_file summary; /* of --json */
+    FILE *file[FILES];            /* this and the next one: of --out */
+    struct br_fields_file fields;
+    size_t picture_stride; /* steps between rows of the picture of the tip; 0: none is drawn */
+    struct br_history_record record;
+    struct br_history_observer recorder; /* writes into the record */
+};
+
+/* ---- the files of --out ---- */
+
+static enum br_status open_results(struct run *r, struct br_error *err)
+{
+    enum br_status status = br_session_open(r->session, err);
+    for (int i = 0; i < FILES && !status; i++)
+        status = br_output_file(&r->session->output, file_names[i], &r->file[i], err);
+    if (status)
+        return status;
+    br_history_csv_head(r->file[HISTORY]);
+    r->fields = (struct br_fields_file){
+        .csv = r->file[FIELDS_CSV],
+        .xdmf = r->file[FIELDS_XDMF],
+        .scene = &r->plan.marched,
+        .n = r->plan.request.n,
+        .axial_degree = r->plan.request.method.axial_degree,
+    };
+    return br_fields_begin(&r->fields, &r->provenance, err);
+}
+
+/* Fails where a write to one of the files did. */
+static enum br_status check_files(const struct run *r, struct br_error *err)
+{
+    for (int i = 0; i < FILES; i++)
+        if (ferror(r->file[i]))
+            return br_fail(err, BR_IO, "%s could not be written", file_names[i]);
+    return BR_OK;
+}
+
+/* A quantity that is not modelled is an empty field, not a zero. */
+static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
+{
+    struct run *r = self;
+    struct br_history_row known = *row;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (!r->plan.marched.field[kind].modelled)
+            known.displacement[kind] = known.velocity[kind] = NAN;
+    if (!r->plan.marched.contact.modelled)
+        known.contact_force = NAN;
+    if (r->plan.marched.friction.law == BR_FRICTIONLESS)
+        known.friction_force = known.friction_bound = NAN;
+    br_history_csv_row(r->file[HISTORY], &known);
+    return check_files(r, err);
+}
+
+static enum br_status write_sample(void *self, const struct br_march *march,
+                                   const struct br_history_row *row, struct br_error *err)
+{
+    struct run *r = self;
+    br_fields_add(&r->fields, march, row);
+    return check_files(r, err);
+}
+
+/* Keeps a row of the picture; the beam's end, which a step does not fill, is asked for. */
+static enum br_status keep_row(void *self, const struct br_march *march,
+                               const struct br_history_row *row, struct br_error *err)
+{
+    struct run *r = self;
+    if (row->step % r->picture_stride && row->step != r->plan.request.steps)
+        return BR_OK;
+    struct br_history_row whole = *row;
+    whole.displacement[BR_BENDING] = br_march_tip_displacement(march, BR_BENDING);
+    return r->recorder.row(r->recorder.self, &whole, err);
+}
+
+/* stopped: why the march did not reach T; NULL: it did. */
+static enum br_status close_results(struct run *r, const char *stopped, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    if (r->file[HISTORY] && stopped)
+        br_history_csv_stopped(r->file[HISTORY], stopped);
+    br_fields_end(&r->fields, stopped);
+    for (int i = 0; i < FILES; i++) {
+        if (r->file[i] && br_output_close(r->file[i], file_names[i], status ? NULL : err))
+            status = BR_IO;
+        r->file[i] = NULL;
+    }
+    return status;
+}
+
+/* Results are put in place even if the march stopped early. */
+static enum br_status write_results(struct run *r, const char *stopped, struct br_error *err)
+{
+    static const struct br_document_format *const formats[] = {&br_document_text, &br_document_json,
+                                                               &br_document_html, NULL};
+    const bool failed =
+        close_results(r, stopped, err) || br_session_write(r->session, formats, err);
+    return failed ? err->status : BR_OK;
+}
+
+/* ---- before the march ---- */
+
+/* One output must not replace another, or a scene. */
+static enum br_status check_places(const struct run *r, struct br_error *err)
+{
+    if (br_whole_file_meets(&r->summary, r->plan.opened.path))
+        return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
+    if (r->out && br_whole_file_meets(&r->summary, r->out))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--json: found '%s', expected a place outside of the folder of --out, which "
+                       "has a summary.json of its own",
+                       r->json);
+    return BR_OK;
+}
+
+static enum br_status open_files(struct run *r, struct br_error *err)
+{
+    r->provenance = br_provenance_of(&r->plan.opened, 1);
+    r->recorder = br_history_recorder(&r->record, r->plan.request.n);
+    if (r->out && !br_option_given(r->options, BR_OPT_NO_PLOTS))
+        r->picture_stride = br_history_stride(r->plan.request.steps, PICTURE_ROWS);
+    const bool failed = br_whole_file_open(&r->summary, "json", r->json, err) ||
+                        check_places(r, err) || (r->out && open_results(r, err));
+    return failed ? err->status : BR_OK;
+}
+
+static enum br_status open_scene(struct run *r, struct br_error *err)
+{
+    const struct br_options *o = r->options;
+    const bool failed = br_opened_scene_read(&r->plan.opened, r->session, o->word[0], err) ||
+                        br_run_plan_make(&r->plan, o, err);
+    return failed ? err->status : BR_OK;
+}
+
+static struct br_planned_march planned(const struct br_run_plan *p)
+{
+    return (struct br_planned_march){.scene = &p->marched,
+                                     .method = &p->request.method,
+                                     .n = p->request.n,
+                                     .steps = p->request.steps};
+}
+
+/* Finds the warnings and the prediction before the march. */
+static enum br_status predict(struct run *r, struct br_error *err)
+{
+    struct br_planned_march march = planned(&r->plan);
+    march.prediction = &r->prediction;
+    return br_check_ahead(&march, &r->warnings, err);
+}
+
+static enum br_status prepare(struct run *r, struct br_error *err)
+{
+    if (open_scene(r, err) || predict(r, err) || open_files(r, err))
+        return err->status;
+    struct br_foreseen work = {.alone = true};
+    const struct br_planned_march one = planned(&r->plan);
+    br_print_warnings("", &r->warnings);
+    br_foreseen_add_march(&work, &one);
+    br_session_announce(r->session, &work);
+    return BR_OK;
+}
+
+/* ---- the march and its report ---- */
+
+static enum br_status march(struct run *r, struct br_error *err)
+{
+    struct br_history_observer output[2];
+    size_t outputs = 0;
+    if (r->out)
+        output[outputs++] =
+            (struct br_history_observer){.self = r, .row = write_row, .sample = write_sample};
+    if (r->picture_stride)
+        output[outputs++] = (struct br_history_observer){.self = r, .step = keep_row};
+    struct br_run_request request = r->plan.request;
+    request.output = output;
+    request.outputs = outputs;
+    request.progress = br_progress_start("marching", r->session->quiet);
+    const enum br_status status = br_run(&request, &r->report, err);
+    br_progress_end();
+    return status;
+}
+
+/* A summary on standard output replaces the report there. It is printed before files are written,
+ * so that a full disk cannot hide the results. */
+static enum br_status write_all(struct run *r, double start, struct br_error *err)
+{
+    const struct br_error *failure = &r->report.failure;
+    const char *stopped = failure->status ? failure->message : NULL;
+    FILE *summary = r->summary.file, *terminal = summary == stdout ? NULL : stdout;
+    const struct br_run_findings findings = {
+        .report = &r->report,
+        .prediction = &r->prediction,
+        .warnings = &r->warnings,
+        .provenance = &r->provenance,
+        .wall_seconds = br_seconds() - start,
+    };
+    if (br_session_report(r->session, 1, err))
+        return err->status;
+    struct br_document *d = r->session->document;
+    br_report_run(&findings, d);
+    if (r->record.rows > 1)
+        br_session_draw(r->session, d, br_history_draw(&r->plan.opened.scene, &r->record), NULL);
+    const bool failed = (summary && br_document_print(summary, &br_document_json, d, NULL, err)) ||
+                        (terminal && !r->session->quiet && br_document_show(terminal, d, err)) ||
+                        (r->out && write_results(r, stopped, err)) ||
+                        br_whole_file_commit(&r->summary, err);
+    return failed ? err->status : BR_OK;
+}
+
+/* Fails if the march stopped or a step exceeds its certificate's limits. Results are kept. */
+static enum br_status conclude(const struct run *r, struct br_error *err)
+{
+    const struct br_run_report *p = &r->report;
+    if (p->failure.status)
+        return br_fail(err, p->failure.status, "%.1000s", p->failure.message);
+    if (p->bad_steps)
+        return br_fail(err, BR_VERDICT, "%zu of %zu steps are beyond the certificate's limits: %s",
+                       p->bad_steps, p->steps, p->verdict.message);
+    return BR_OK;
+}
+
+/* ---- the command ---- */
+
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
+{
+    static struct run r;
+    const double start = br_seconds();
+    if (!br_ranks_first())
+        return BR_OK; /* one rank does a single march */
+    r = (struct run){.options = options,
+                     .session = session,
+                     .out = br_option_text(options, BR_OPT_OUT),
+                     .json = br_option_text(options, BR_OPT_JSON)};
+    const bool failed =
+        prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
+    close_results(&r, NULL, NULL);
+    br_history_record_clear(&r.record);
+    br_whole_file_discard(&r.summary);
+    br_run_plan_clear(&r.plan);
+    return failed ? err->status : BR_OK;
+}
+
+const struct br_command br_command_run = {
+    .bit = BR_FOR_RUN,
+    .name = "run",
+    .arguments = "SCENE",
+    .title = "marches one scene: its tip, its energies, its fields",
+    .about =
+        "Marches one scene and says what happened at its tip: displacements, forces, when it "
+        "stuck, slipped, reversed, closed and opened, energies, and what was modelled and what "
+        "not.",
+    .example = {"beamrate run example3", "beamrate run example2 -n 400 -k 1e-4 --check",
+                "beamrate run example2 --set 'contact.stiffness=2e3 N/m' --set 'length=500 mm'",
+                "beamrate run example1 --at 0.5,T --out results --json -"},
+    .least_words = 1,
+    .most_words = 1,
+    .run = run,
+};

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <errno.h>
+#include <gsl/gsl_errno.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/quote.h"
+#include "base/words.h"
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/provenance.h"
+#include "cli/session.h"
+#include "tables/json_value.h"
+
+extern const struct br_command br_command_help;
+
+const struct br_command *br_find_command(const char *name)
+{
+    for (const struct br_command *const *c = br_program.commands; *c; c++)
+        if (strcmp((*c)->name, name) == 0)
+            return *c;
+    return NULL;
+}
+
+static enum br_status unknown(const char *word, struct br_error *err)
+{
+    const char *names[64] = {"--help", "--version"};
+    size_t count = 2;
+    for (const struct br_command *const *c = br_program.commands; *c && count < 64; c++)
+        names[count++] = (*c)->name;
+    char suggestion[BR_SUGGESTION];
+    br_suggestion(word, names, count, suggestion);
+    return br_fail(err, BR_BAD_INPUT, "'%s' is no command%s", word,
+                   *suggestion ? suggestion : "; '--help' lists them");
+}
+
+static enum br_status run(const struct br_command *command, const struct br_options *options,
+                          struct br_error *err)
+{
+    struct br_session session = br_session_begin(options);
+    const enum br_status status = command->run(options, &session, err);
+    br_session_close(&session);
+    return status;
+}
+
+static enum br_status run_command(int argc, const char **argv, struct br_error *err)
+{
+    const char *word = argc > 1 ? argv[1] : "";
+    const bool help = strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+    if (argc < 2)
+        return br_fail(err, BR_BAD_INPUT, "no command is given; '%s help' lists them",
+                       br_program.name);
+    if (strcmp(word, "--version") == 0) {
+        printf("%s %s (%s)\n%s\n", br_program.name, br_version(), br_commit(), br_libraries());
+        return BR_OK;
+    }
+    const struct br_command *command = help ? &br_command_help : br_find_command(word);
+    if (!command)
+        return unknown(word, err);
+    br_signals_install();
+    br_stop_when(br_signals_caught);
+    if (br_remember_command_line(argc, argv, err))
+        return err->status;
+    struct br_options options;
+    enum br_status status = br_options_parse(argc - 1, argv + 1, command, &options, err);
+    if (!status && br_option_given(&options, BR_OPT_HELP))
+        br_print_command_help(stdout, command);
+    else if (!status)
+        status = run(command, &options, err);
+    br_options_clear(&options);
+    return status;
+}
+
+/* False at exit: a library (popt) ended the program, for lack of memory. */
+static bool returned;
+
+static void name_the_end(int code, void *self)
+{
+    (void)self;
+    static const char message[] = "beamrate: out of memory: a library gave up\n";
+    if (returned || code == 0)
+        return;
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(br_status_exit_code(BR_NO_MEMORY));
+}
+
+/* Whether the reader of standard output has left, as head does when it has its lines. */
+static bool reader_left(void)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO};
+    return ferror(stdout) && poll(&out, 1, 0) == 1 && (out.revents & POLLERR);
+}
+
+static int run_all(int argc, const char **argv)
+{
+    /* A failing function sets this error. One that fails without setting it still fails, since
+     * chains of calls return err->status. */
+    struct br_error err = {BR_IO, "a failure without a message: this is a defect of the program"};
+    bool failed = br_program.beam && br_program.beam->start(&err);
+    if (!br_is_first() && !freopen("/dev/null", "w", stdout)) /* only rank 0 prints */
+        failed = br_fail(&err, BR_IO, "/dev/null: %s", strerror(errno));
+    failed = failed || run_command(argc, argv, &err);
+    if (!failed && (fflush(stdout) != 0 || ferror(stdout))) /* closed, or full */
+        failed = br_fail(&err, BR_IO, "standard output could not be written");
+    if (failed && err.status == BR_IO && reader_left()) { /* no error: it ends as others do */
+        signal(SIGPIPE, SIG_DFL);
+        raise(SIGPIPE);
+    }
+    if (!failed && br_json_lacked_memory())
+        failed = br_no_memory(&err, "a JSON document");
+    enum br_status status = failed ? err.status : BR_OK;
+    status = br_program.beam ? br_program.beam->end(status, &err) : status;
+    if (!br_is_first())
+        return 0; /* rank 0 prints the error, and ends with the exit code */
+    if (status == BR_INTERRUPTED) {
+        fprintf(stderr, "beamrate: interrupted; no file is half written\n");
+        br_signals_raise_again();
+    }
+    if (!status && br_signals_caught()) { /* a script must see that a signal came */
+        fprintf(stderr, "beamrate: interrupted after everything was written\n");
+        br_signals_raise_again();
+    }
+    if (status) {
+        fputs("beamrate: ", stderr);
+        br_quote(stderr, &br_for_text, err.message); /* it may quote a file */
+        fputc('\n', stderr);
+    }
+    return br_status_exit_code(status);
+}
+
+int br_run_program(int argc, const char **argv)
+{
+    setvbuf(stderr, NULL, _IOLBF, BUFSIZ); /* lines of several programs do not mix */
+    on_exit(name_the_end, NULL);
+    gsl_set_error_handler_off(); /* its default ends the program; all its results are checked */
+    br_json_lacked_memory();     /* installs its allocator */
+    const int code = run_all(argc, argv);
+    returned = true;
+    return code;
+}

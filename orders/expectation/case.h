@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An order that is expected, what was observed, and the verdict: from the order's 95 % interval,
+ * not from a slope. */
+#ifndef BR_ORDERS_EXPECTATION_CASE_H
+#define BR_ORDERS_EXPECTATION_CASE_H
+
+#include "base/status.h"
+#include "orders/axis.h"
+#include "orders/estimate.h"
+
+enum br_verify_kind {
+    BR_VERIFY_SPACE, /* over h, at one k: each mesh against the next, so the time error is the same
+                      */
+    BR_VERIFY_TIME,  /* over k, on one mesh: each step against the next, likewise */
+    BR_VERIFY_JOINT, /* h and k together, against the solution of the continuous problem: a scheme
+                        for another problem converges, too, but not to this solution */
+    BR_VERIFY_KINDS,
+};
+extern const char *const br_verify_names[BR_VERIFY_KINDS];
+
+/* An order needs at least four errors: two to fit it, two to check it. Of more than five errors the
+ * finest five count: coarse ones would outweigh a stall at the end, or hide an order that is
+ * reached later. */
+enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
+
+/* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */
+struct br_expectation {
+    double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
+    double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
+    size_t line;             /* in the scene's file; 0: a default */
+    double highest; /* > order: or the errors fall by orders up to highest + tolerance, which
+                       do not rise with refinement: two powers of z; else 0 */
+    char why[160];  /* of a default: why not the formal order; or "" */
+};
+
+enum br_verdict {
+    BR_PASS,         /* the interval lies within the band */
+    BR_FAIL,         /* it lies outside; or the constant is out of its range; or an error is not
+                        a number, or missing */
+    BR_INCONCLUSIVE, /* it straddles, or too few points are left: counts as failing */
+};
+extern const char *const br_verdict_names[]; /* "PASS", "FAIL", "INCONCLUSIVE" */
+
+/* One error of a study. */
+struct br_point {
+    struct br_resolution at, against; /* against: zeros for the continuous problem */
+    double z, z_against;              /* h/L or k/T, what the order is in; and that of `against` */
+    double error;                     /* in the norm's unit */
+    double constant;                  /* C of e = C (z^order - z_against^order) */
+    char label[64];                   /* "n = 40", for messages */
+    enum br_flag flag;                /* why it is left out */
+    bool used;                        /* for the order: it is not left out */
+    bool lost; /* the search for the order left it out (line_order.h), and nothing before it */
+    char failure[256];      /* of the march; "": it went well */
+    struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
+                               the order is that of a joint fit, which is no line */
+    double deviation;       /* the error's standard deviation, where it is a mean; 0: it is none */
+    double rounding;        /* half a unit of its last digit, where it was printed; 0: it was not */
+};
+
+/* The order that two points show, the coarser one first; NaN as br_order_rate. */
+double br_point_rate(const struct br_point *coarse, const struct br_point *fine);
+
+/* An expectation and what was observed. */
+struct br_case {
+    enum br_verify_kind kind;
+    struct br_expectation expected; /* order: NaN where nothing is expected */
+    const char *measure, *part;     /* norm, or column, of the errors; borrowed */
+    const char *unit;               /* of the errors; "": not known; borrowed */
+    struct br_point *point;         /* points, from coarse to fine; owned */
+    size_t points, used;
+    bool may_miss; /* a point without a number is left out by name; else it fails the case */
+    struct br_estimate order;
+    double low99, high99;      /* the order's 99 % interval: what lies outside is excluded */
+    bool exponential;          /* `expected` is not an order, but what the factor below is to be */
+    struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
+                                  NaN: it is none, or that of n^g */
+    const char *law;  /* what explains the errors best, beside one power; NULL: one power */
+    double constant;  /* the largest of the finest five used points'; NaN: none */
+    const char *open; /* why no order can be judged, and what would show one; NULL; borrowed */
+    bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's
+                   */
+    double duration; /* T of the scene, s; 0: of another program */
+    double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
+    double margin;   /* from the interval to the nearer end of the band; < 0: outside */
+    enum br_verdict verdict;
+    char reason[768]; /* why it does not pass, and what would make it pass or fail; or "" */
+    char note[512];   /* what was left out; or "" */
+};
+
+/* Finds the order of a case, and leaves out the points that do not show it (line_order.h), whose
+ * kind, expected, measure, part, unit and points (at, against, z, z_against, error, label, flag,
+ * failure) are set, from at least so many that are not left out; without a verdict. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err);
+
+/* Takes an order and a constant from elsewhere, the joint fit of a grid, which describes all
+ * points: none is left out. */
+void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);
+
+/* The verdict on what was observed. */
+void br_case_judge(struct br_case *c);
+
+#endif

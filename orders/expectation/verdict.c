@@ -1,0 +1,568 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "orders/expectation/check.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/words.h"
+#include "orders/line/line_order.h"
+
+const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
+const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
+
+__attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
+                                                           enum br_verdict verdict,
+                                                           const char *format, ...)
+{
+    c->verdict = verdict;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(c->reason, sizeof c->reason, format, args);
+    va_end(args);
+}
+
+/* ---- the observation ---- */
+
+static void choose_points(struct br_case *c)
+{
+    c->used = 0;
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].used = c->point[i].flag == BR_FLAG_NONE;
+        c->used += c->point[i].used;
+    }
+}
+
+/* A point that is not a number must fail, whatever its flag, unless points may miss. */
+static const struct br_point *first_failed(const struct br_case *c)
+{
+    for (size_t i = 0; i < c->points && !c->may_miss; i++) {
+        const struct br_point *p = &c->point[i];
+        if (p->failure[0] || p->flag == BR_FLAG_FAILED || !(p->error >= 0 && isfinite(p->error)))
+            return p;
+    }
+    return NULL;
+}
+
+static void list_left_out(struct br_case *c)
+{
+    for (size_t i = 0; i < c->points; i++) {
+        const struct br_point *p = &c->point[i];
+        if (!p->flag)
+            continue;
+        br_append(c->note, sizeof c->note, "%s%s (%s", c->note[0] ? ", " : "left out: ", p->label,
+                  br_flag_name(p->flag));
+        if (isfinite(p->error))
+            br_append(c->note, sizeof c->note, ", error %.1e", p->error);
+        br_append(c->note, sizeof c->note, ")");
+    }
+}
+
+/* Of the expected order; where none is expected, of the observed one. */
+static void find_constants(struct br_case *c)
+{
+    const double order = isnan(c->expected.order) ? c->order.value : c->expected.order;
+    size_t finest = 0;
+    c->constant = NAN;
+    for (size_t i = c->points; i-- > 0;) {
+        struct br_point *p = &c->point[i];
+        p->constant = p->error / (pow(p->z, order) - pow(p->z_against, order));
+        if (p->used && finest++ < BR_VERIFY_MOST_POINTS && !(p->constant <= c->constant))
+            c->constant = p->constant; /* also where there was none yet */
+    }
+}
+
+/* As the search for an order takes it. */
+static struct br_order_point order_point(const struct br_point *p)
+{
+    return (struct br_order_point){p->z, p->z_against, p->error, p->deviation, p->rounding};
+}
+
+double br_point_rate(const struct br_point *coarse, const struct br_point *fine)
+{
+    const struct br_order_point both[] = {order_point(coarse), order_point(fine)};
+    return br_order_rate(&both[0], &both[1]);
+}
+
+/* The order with its intervals, from the points that are not left out; those that do not show it
+ * are left out then. */
+static enum br_status find_order(struct br_case *c, struct br_error *err)
+{
+    struct br_order_point *all = br_allocate(c->points, sizeof *all);
+    struct br_line_order found;
+    if (!all)
+        return br_no_memory(err, "the verdict");
+    for (size_t i = 0; i < c->points; i++) {
+        all[i] = order_point(&c->point[i]);
+        all[i].error = c->point[i].used ? all[i].error : NAN;
+    }
+    const enum br_status status = br_line_order_find(all, c->points, &found, err);
+    c->order = found.order;
+    c->low99 = found.low99;
+    c->high99 = found.high99;
+    c->factor = br_exponential_factor(&found);
+    for (enum br_law law = BR_LAW_LOWER; law < BR_LAWS; law++)
+        c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
+    const bool known = isfinite(found.order.value) || isfinite(found.rate.value);
+    for (size_t i = 0; i < c->points && known; i++)
+        if (c->point[i].used) {
+            c->point[i].flag = br_line_order_flag(&found, all, i);
+            c->point[i].lost = c->point[i].flag != BR_FLAG_NONE;
+        }
+    for (size_t i = 0; i < c->points; i++)
+        all[i].error = c->point[i].flag ? (double)NAN : all[i].error;
+    for (size_t i = 0; i < c->points; i++)
+        c->point[i].fit = br_line_fit(all, c->points, i, &c->order);
+    free(all);
+    return status;
+}
+
+/* ---- the verdict ---- */
+
+/* The order that the point shows with the used one before it; NaN: there is none. */
+static double rate_to(const struct br_case *c, size_t i)
+{
+    size_t before = i;
+    while (before > 0 && !c->point[before - 1].used)
+        before--;
+    return c->point[i].used && before ? br_point_rate(&c->point[before - 1], &c->point[i]) : NAN;
+}
+
+/* The orders that the two coarsest points and the two finest ones show by themselves, used or not.
+ */
+static void end_rates(const struct br_case *c, double *first, double *last)
+{
+    *first = *last = NAN;
+    for (size_t i = 1; i < c->points; i++) {
+        const double rate = br_point_rate(&c->point[i - 1], &c->point[i]);
+        *first = isnan(*first) ? rate : *first;
+        *last = isnan(rate) ? *last : rate;
+    }
+}
+
+/* Whether orders from size to size, less the order, still change: they go away from it or, by more
+ * than its interval is wide, more slowly than a next term h^0.7 lets them. */
+static bool drifts(const struct br_case *c, const double off[3], double log_ratio)
+{
+    static const double slow = 0.7;
+    const double sign = off[2] < 0 ? -1 : 1, d = off[1] - off[0], e = off[2] - off[1];
+    const bool away = sign * d > 0 && sign * e > 0 && fabs(off[2]) > 0.03;
+    return away || (d * e > 0 && fabs(d + e) > c->order.high - c->order.low &&
+                    log(d / e) < slow * log_ratio);
+}
+
+/* Says so where the last three orders from size to size drift. */
+static void note_drift(struct br_case *c)
+{
+    enum { LAST = 3 };
+    double off[LAST] = {NAN, NAN, NAN}, rate = NAN, log_ratio = NAN;
+    for (size_t i = 0; i < c->points; i++) {
+        const double next = rate_to(c, i);
+        if (isnan(next))
+            continue;
+        rate = next;
+        log_ratio = log(c->point[i - 1].z / c->point[i].z);
+        off[0] = off[1], off[1] = off[2], off[2] = rate - c->order.value;
+    }
+    if (drifts(c, off, log_ratio))
+        br_append(c->note, sizeof c->note, "%sthe order from row to row still %s, the last is %.2f",
+                  c->note[0] ? "; " : "", off[2] < off[1] ? "falls" : "rises", rate);
+}
+
+/* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
+ */
+static void advise_tolerance(struct br_case *c)
+{
+    const double expected = c->expected.order;
+    const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
+    const double enough = ceil(100 * off + 1e-9) / 100;
+    if (enough < expected / 4)
+        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would include it", enough);
+}
+
+/* Says what would settle the verdict: which way the orders from size to size go decides it. */
+static void advise(struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    double first, last;
+    end_rates(c, &first, &last);
+    if (c->of_grid)
+        first = last = NAN;
+    const double high = fmax(e->order, e->highest);
+    const double off = fabs(last - fmin(fmax(last, e->order), high));
+    const double before = fabs(first - fmin(fmax(first, e->order), high));
+    const bool outside =
+        c->order.high < e->order - e->tolerance || c->order.low > high + e->tolerance;
+    if (off < 0.75 * before)
+        br_append(c->reason, sizeof c->reason,
+                  "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
+                  "asymptotic. Start finer, or refine further",
+                  last, first);
+    else if (off > e->tolerance && off >= (outside ? 0.9 : 1) * before)
+        br_append(c->reason, sizeof c->reason,
+                  "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
+                  "Find what lowers the order, or expect another order",
+                  last, first);
+    else if (!(c->of_grid && outside)) {
+        br_append(c->reason, sizeof c->reason, "; %s",
+                  c->order.high - c->order.low > 2 * e->tolerance
+                      ? "the interval is wider than the band: finer grids would narrow it"
+                      : "finer grids would decide");
+        advise_tolerance(c);
+    }
+    if (*e->why)
+        br_append(c->reason, sizeof c->reason, " (expected: %s)", e->why);
+}
+
+static void judge_too_few(struct br_case *c)
+{
+    bool unstable = false, missing = false;
+    for (size_t i = 0; i < c->points; i++) {
+        unstable |= c->point[i].flag == BR_FLAG_UNSTABLE;
+        missing |= c->point[i].flag == BR_FLAG_FAILED;
+    }
+    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors can be used, an order needs %d: %s", c->used,
+             c->points, BR_VERIFY_LEAST_POINTS,
+             unstable  ? "use smaller time steps, or contact at u_n (contact: implicit), which is "
+                         "stable"
+             : missing ? "add the missing numbers, or more rows"
+                       : "use coarser grids, whose errors are above the limits");
+}
+
+/* The first error at the fine end that the search for the order left out. It shows another
+ * solution, round-off, the error of a reference or tolerance, or terms that cancel: without it the
+ * order of the coarse errors proves nothing, unless such errors are expected (`down to`). */
+static const struct br_point *first_beyond(const struct br_case *c)
+{
+    const struct br_point *first = NULL, *last = c->point + c->points - 1;
+    while (last > c->point && !last->used)
+        last--;
+    for (const struct br_point *p = c->point + c->points; p-- > last + 1;)
+        if (p->lost && !(p->error <= c->down_to))
+            first = p;
+    return first;
+}
+
+/* Whether the finest error is larger than all that show the order: the errors fall, then grow. */
+static bool blows_up(const struct br_case *c)
+{
+    double largest = 0;
+    for (size_t i = 0; i < c->points; i++)
+        largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
+    return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
+}
+
+/* Where the errors begin to grow, by one law over all of them: their orders from size to size fall,
+ * the last two below zero, and turn more slowly again at the fine end. Round-off scatters instead,
+ * or is deep; NULL: they do not grow so. */
+static const struct br_point *turning_point(const struct br_case *c)
+{
+    enum { LEAST = 4 };
+    static const double grows = -0.25, stays = 0.2, scatter = 0.1, deep = 1e-6;
+    double rate = NAN, fell = NAN, turn = NAN;
+    for (size_t i = 1; i < c->points; i++) {
+        const double next = br_point_rate(&c->point[i - 1], &c->point[i]);
+        const double turned = i > 1 ? next - rate : -scatter;
+        if (c->point[i].deviation > 0 || !(turned < scatter)) /* NaN: there is no such order */
+            return NULL;
+        fell = turn, turn = turned;
+        if (i + 1 < c->points)
+            rate = next;
+        else if (!(next < grows && (rate < grows || (rate < stays && turn > fell))))
+            return NULL;
+    }
+    const struct br_point *last = c->point + c->points - 1;
+    const bool clear = c->points > LEAST && last->error > deep * c->point[0].error &&
+                       !(last->error <= c->down_to) && c->point[1].error < c->point[0].error;
+    return clear ? last - 2 : NULL;
+}
+
+static void judge_beyond(struct br_case *c, const struct br_point *first)
+{
+    char text[64];
+    const struct br_point *before = first > c->point ? &first[-1] : first;
+    const double falls_to = before->error * pow(first->z / before->z, c->order.value);
+    const bool below = first->error < falls_to, small = first->error < 0.5 * falls_to;
+    const bool falls = first->error < before->error;
+    br_order_text(&c->order, text, sizeof text);
+    if (blows_up(c)) {
+        conclude(c, BR_FAIL, "the order is %s, but from %s on the errors grow, to %.2e", text,
+                 first->label, c->point[c->points - 1].error);
+        return;
+    }
+    conclude(c, BR_INCONCLUSIVE, "the order is %s, but from %s on the errors %s, %.2e", text,
+             first->label,
+             small   ? "are far smaller than that"
+             : below ? "are smaller than that"
+             : falls ? "fall more slowly"
+                     : "do not fall",
+             first->error);
+    if (below)
+        br_append(c->reason, sizeof c->reason, ": finer grids would show whether terms cancel");
+    else if (!(c->duration > 0))
+        br_append(c->reason, sizeof c->reason,
+                  ": if that is round-off, or the reference's own error, expect the order 'down to "
+                  "%.0e'",
+                  4 * first->error);
+    else
+        br_append(c->reason, sizeof c->reason,
+                  ": this is another solution, or the reference's own error; errors of coarser "
+                  "grids are larger");
+}
+
+/* Elements or steps of size i; the last ones of neighbours that are compared are `against`. */
+static double count_at(const struct br_case *c, bool of_time, size_t i)
+{
+    const struct br_resolution *at =
+        i < c->points ? &c->point[i].at : &c->point[c->points - 1].against;
+    return of_time ? (double)at->steps : (double)at->n;
+}
+
+/* The sizes of the case, and one more: finer ones, or coarser ones where the fine ones are lost. */
+static void name_axis(struct br_case *c, bool of_time, bool lost)
+{
+    const size_t count = c->points + (c->kind != BR_VERIFY_JOINT);
+    br_append(c->reason, sizeof c->reason, of_time ? " k: " : " n: ");
+    for (size_t i = 0; i <= count; i++) {
+        const double a = count_at(c, of_time, lost ? 0 : count - 1),
+                     b = count_at(c, of_time, lost ? 1 : count - 2);
+        const bool more = i == (lost ? 0 : count);
+        const double size = more ? floor(a * a / b) : count_at(c, of_time, lost ? i - 1 : i);
+        br_append(c->reason, sizeof c->reason, "%s%.6g", i ? ", " : "",
+                  of_time ? c->duration / size : size);
+    }
+    br_append(c->reason, sizeof c->reason, of_time ? " s" : "");
+}
+
+/* Says what would settle the verdict: for a scene as a line of its part `verify`. */
+static void name_sizes(struct br_case *c)
+{
+    const struct br_point *last = &c->point[c->points - 1];
+    const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
+    if (!(c->duration > 0) && !c->open)
+        br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
+                  lost ? c->point[0].label : last->label);
+    if (!(c->duration > 0) || c->points < 2)
+        return;
+    br_append(c->reason, sizeof c->reason, "; expect it of");
+    if (c->kind != BR_VERIFY_TIME)
+        name_axis(c, false, lost);
+    if (c->kind != BR_VERIFY_SPACE)
+        name_axis(c, true, lost);
+}
+
+static void straddle(struct br_case *c, const char *order, double low, double high)
+{
+    const bool below = c->order.low<low, above = c->order.high> high;
+    if (below && above)
+        conclude(c, BR_INCONCLUSIVE,
+                 "the order's interval, %s, contains both ends of the band, %.4g and %.4g", order,
+                 low, high);
+    else
+        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, contains the band's %s end, %.4g",
+                 order, below ? "lower" : "upper", below ? low : high);
+}
+
+/* Whether the errors fall as A z^order + B z^highest with A, B >= 0 do: from size to size by orders
+ * between the two, which fall. One power does not fit them, so its interval says nothing. */
+static bool falls_by_two(const struct br_case *c, double low, double high)
+{
+    double last = high;
+    size_t rates = 0;
+    for (size_t i = 1; i < c->points; i++) {
+        const double rate = rate_to(c, i);
+        if (!c->point[i].used)
+            continue;
+        rates += isfinite(rate) ? 1 : 0;
+        if (isnan(rate) && rates == 0) /* the first used point has none before it */
+            continue;
+        if (!(rate >= low && rate <= fmin(high, last + c->expected.tolerance)))
+            return false;
+        last = rate;
+    }
+    return rates >= 2 && c->expected.highest > c->expected.order;
+}
+
+/* Exponential convergence has no order, and an order is no such convergence. */
+static void judge_factor(struct br_case *c)
+{
+    const double low = c->expected.order - c->expected.tolerance,
+                 high = c->expected.order + c->expected.tolerance;
+    const struct br_estimate *f = &c->factor;
+    char text[64];
+    c->margin = fmin(f->low - low, high - f->high);
+    if (f->low >= low && f->high <= high)
+        conclude(c, BR_PASS, "%s", "");
+    else if (isfinite(f->value))
+        conclude(c, f->high < low || f->low > high ? BR_FAIL : BR_INCONCLUSIVE,
+                 "one more of 1/%s divides the errors by %s, expected %.4g to %.4g",
+                 c->kind == BR_VERIFY_TIME ? "k" : "h", br_order_text(f, text, sizeof text), low,
+                 high);
+    else
+        conclude(c, br_order_determined(&c->order) ? BR_FAIL : BR_INCONCLUSIVE,
+                 "the errors do not fall exponentially; their order is %s",
+                 br_order_text(&c->order, text, sizeof text));
+}
+
+static void judge_order(struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    const double low = e->order - e->tolerance, high = fmax(e->order, e->highest) + e->tolerance;
+    char text[64];
+    double first, last;
+    end_rates(c, &first, &last);
+    br_order_text(&c->order, text, sizeof text);
+    c->margin = fmin(c->order.low - low, high - c->order.high);
+    if ((c->order.low >= low && c->order.high <= high) || falls_by_two(c, low, high))
+        conclude(c, BR_PASS, "%s", "");
+    else if (c->high99 < low || c->low99 > high) {
+        conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
+                 c->high99 < low ? "below" : "above", low, high);
+        advise(c);
+    } else if (isfinite(c->margin)) {
+        straddle(c, text, low, high);
+        advise(c);
+    } else if (!(last > high))
+        conclude(c, BR_INCONCLUSIVE,
+                 "the orders from size to size rise to %.2f: finer grids would show "
+                 "whether they stop there",
+                 last);
+    else if (isfinite(c->factor.value))
+        conclude(c, BR_FAIL,
+                 "the errors fall exponentially, by no order: one more of 1/%s divides them by %s",
+                 c->kind == BR_VERIFY_TIME ? "k" : "h",
+                 br_order_text(&c->factor, text, sizeof text));
+    else
+        conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
+                 c->point[0].error, c->point[c->points - 1].error);
+}
+
+/* An order can be right while the errors have doubled; errors that have become small mean another
+ * scheme, too. */
+static void judge_constant(struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    const bool high = !isnan(e->ceiling) && !(c->constant <= e->ceiling);
+    const bool low = !isnan(e->floor) && !(c->constant >= e->floor);
+    if (!high && !low)
+        return;
+    const enum br_verdict so_far = c->verdict;
+    char before[sizeof c->reason];
+    snprintf(before, sizeof before, "%s", c->reason);
+    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
+             high ? "above its upper limit" : "below its lower limit",
+             high ? e->ceiling : e->floor);
+    if (so_far != BR_PASS)
+        br_append(c->reason, sizeof c->reason, "; and %s", before);
+}
+
+enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err)
+{
+    c->order = (struct br_estimate){NAN, NAN, NAN};
+    c->margin = NAN;
+    c->reason[0] = c->note[0] = '\0';
+    c->low99 = c->high99 = NAN;
+    c->factor = (struct br_estimate){NAN, NAN, NAN};
+    c->law = NULL;
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
+        c->point[i].lost = false;
+    }
+    choose_points(c);
+    find_constants(c);
+    const bool known = !first_failed(c) && c->used >= least;
+    const enum br_status status = known ? find_order(c, err) : BR_OK;
+    choose_points(c);
+    if (isnan(c->expected.order))
+        find_constants(c);
+    list_left_out(c);
+    if (c->law)
+        br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
+                  c->law);
+    if (isfinite(c->factor.value)) {
+        char text[64];
+        br_append(c->note, sizeof c->note, ": one more of 1/%s divides them by %s",
+                  c->kind == BR_VERIFY_TIME ? "k" : "h",
+                  br_order_text(&c->factor, text, sizeof text));
+    }
+    note_drift(c);
+    return status;
+}
+
+void br_case_take_order(struct br_case *c, struct br_estimate order, double constant)
+{
+    c->order = order;
+    c->low99 = order.low;
+    c->high99 = order.high;
+    c->constant = constant;
+    c->law = NULL;
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
+        c->point[i].lost = false;
+        if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
+            c->point[i].flag = BR_FLAG_NONE;
+    }
+    c->note[0] = '\0';
+    choose_points(c);
+}
+
+void br_case_judge(struct br_case *c)
+{
+    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c),
+                          *turns = turning_point(c);
+    if (failed)
+        conclude(c, BR_FAIL, "at %s %s", failed->label,
+                 failed->failure[0] ? failed->failure : "the error is not a number");
+    else if (c->points < BR_VERIFY_LEAST_POINTS)
+        conclude(c, BR_INCONCLUSIVE, "the study has %zu errors, expected at least %d", c->points,
+                 BR_VERIFY_LEAST_POINTS);
+    else if (c->open)
+        conclude(c, BR_INCONCLUSIVE, "%s", c->open);
+    else if (turns)
+        conclude(c, BR_FAIL, "the errors fall, but from %s on they grow, to %.2e", turns->label,
+                 c->point[c->points - 1].error);
+    else if (beyond) {
+        judge_beyond(c, beyond);
+        judge_constant(c);
+    } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
+        judge_too_few(c);
+    else {
+        (c->exponential ? judge_factor : judge_order)(c);
+        judge_constant(c);
+    }
+    if (c->verdict == BR_INCONCLUSIVE)
+        name_sizes(c);
+}
+
+/* ---- all of a check ---- */
+
+void br_check_clear(struct br_check *check)
+{
+    for (size_t i = 0; i < check->count; i++)
+        free(check->cases[i].point);
+    free(check->cases);
+    check->cases = NULL;
+    check->count = 0;
+}
+
+size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)
+{
+    size_t failures = 0;
+    *first = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (checks[i].failure.status) {
+            *first = *first ? *first : &checks[i];
+            failures++;
+        }
+    return failures;
+}
+
+size_t br_check_tally(const struct br_check *checks, size_t count, enum br_verdict verdict)
+{
+    size_t tally = 0;
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < checks[i].count; c++)
+            tally += checks[i].cases[c].verdict == verdict;
+    return tally;
+}

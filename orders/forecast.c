@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What finer meshes would give, and what runs cost. */
+#include <math.h>
+
+#include "orders/line/line_order.h"
+#include "orders/orders.h"
+
+/* ---- finer meshes ---- */
+
+static bool has_floor(const struct br_case *c)
+{
+    return c->law == br_law_text(BR_LAW_FLOOR) || c->law == br_law_text(BR_LAW_FLOOR_SQUARES) ||
+           c->law == br_law_text(BR_LAW_OFFSET);
+}
+
+struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
+                                            const struct br_quantity_orders *of)
+{
+    const struct br_orders_line *line = br_orders_is_grid(o) || !of->lines ? NULL : &of->line[0];
+    struct br_orders_forecast f = {.line = NULL};
+    if (!line)
+        return f;
+    const struct br_case *c = &line->observed;
+    const bool is_value = o->numbers->quantity[of->quantity].is_value;
+    const size_t last = c->points - 1 + is_value;
+    f = (struct br_orders_forecast){line, line->limits.gci.fine.index, line->limits.gci.order,
+                                    o->numbers->row[line->row[last]].z[line->axis], NAN};
+    if (!is_value) {
+        f.number = c->point[last].flag || has_floor(c) ? (double)NAN : c->point[last].error;
+        f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
+    }
+    if (isnan(o->numbers->row[line->row[last]].number[of->quantity]))
+        f.number = NAN; /* the index is that of a coarser row */
+    f.ratio = f.z / o->numbers->row[line->row[last - 1]].z[line->axis];
+    if (!(f.number > 0 && f.order > 0))
+        f.line = NULL;
+    return f;
+}
+
+double br_orders_next(const struct br_orders *o, const struct br_orders_forecast *f, double *given)
+{
+    *given =
+        br_numbers_given(o->numbers->column[f->line->axis], f->z * f->ratio, o->numbers->dimension);
+    return f->number * pow(f->ratio, f->order);
+}
+
+double br_orders_needed(const struct br_orders *o, const struct br_orders_forecast *f,
+                        double wanted)
+{
+    return br_numbers_given(o->numbers->column[f->line->axis],
+                            f->z * pow(wanted / f->number, 1 / f->order), o->numbers->dimension);
+}
+
+double br_orders_in_dimension(const struct br_orders *o, double order, double dimension)
+{
+    return order * dimension / o->numbers->dimension;
+}
+
+bool br_orders_stays(const struct br_orders_line *line)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < line->observed.points; i++) {
+        least = fmin(least, line->observed.point[i].error);
+        most = fmax(most, line->observed.point[i].error);
+    }
+    return most > 0 && most < 2 * least; /* 0: no row has a number */
+}
+
+/* ---- costs ---- */
+
+/* A shorter run is mostly its start, s. */
+static const double least_seconds = 0.02;
+
+bool br_orders_costs_differ(const struct br_orders *o)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        least = fmin(least, o->numbers->row[i].seconds);
+        most = fmax(most, o->numbers->row[i].seconds);
+    }
+    return most >= least_seconds && most > 2 * least;
+}
+
+enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
+                                struct br_estimate *growth, struct br_error *err)
+{
+    const struct br_orders_line *line = o->count ? br_orders_finest(&o->of[0], axis) : NULL;
+    *growth = (struct br_estimate){NAN, NAN, NAN};
+    struct br_order_point *point = line ? br_allocate(o->numbers->rows, sizeof *point) : NULL;
+    if (!line || !point)
+        return line ? br_no_memory(err, "the costs") : BR_OK;
+    const size_t rows = line->observed.points + o->numbers->quantity[o->of[0].quantity].is_value;
+    size_t count = 0;
+    for (size_t i = 0; i < rows; i++) {
+        const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
+        if (row->seconds >= least_seconds)
+            point[count++] = (struct br_order_point){.z = row->z[axis], .error = 1 / row->seconds};
+    }
+    struct br_line_order found;
+    const enum br_status status = br_line_order_find(point, count, &found, err);
+    *growth = found.order;
+    free(point);
+    return status;
+}
+
+const struct br_numbers_row *br_orders_cheapest(const struct br_orders *o, size_t quantity,
+                                                double error)
+{
+    const struct br_numbers_row *best = NULL;
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        const struct br_numbers_row *row = &o->numbers->row[i];
+        if (row->number[quantity] <= error && (!best || row->seconds < best->seconds))
+            best = row;
+    }
+    return best && isfinite(best->seconds) ? best : NULL;
+}

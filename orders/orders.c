@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "orders/orders.h"
+
+#include <math.h>
+#include <string.h>
+
+static enum br_status stopped(const struct br_numbers *numbers, struct br_error *err)
+{
+    return br_observer_stops(numbers->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                : BR_OK;
+}
+
+/* ---- both axes ---- */
+
+static struct br_point *point_on(const struct br_quantity_orders *of, enum br_axis axis, size_t row)
+{
+    const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
+    return at && at->line ? &at->line->observed.point[at->index] : NULL;
+}
+
+static bool is_level(enum br_flag flag)
+{
+    return flag == BR_FLAG_STALLED || flag == BR_FLAG_ROUND_OFF;
+}
+
+/* Where neighbours on a grid show a smaller order the error stays. */
+static const double hardly_falls = 0.25;
+
+/* Errors below this many times a floor are changed by it. */
+static const double floor_margin = 2;
+
+/* Whether the error is at a level of its line, or hardly another one than that of the next coarser
+ * size (that of the coarsest size: than that of the next finer one). */
+static bool stays(const struct br_row_point *at)
+{
+    const struct br_point *p = at->line->observed.point;
+    const size_t fine = at->index > 0 ? at->index : 1;
+    return is_level(p[at->index].flag) || fabs(br_orders_rate(at->line, fine)) < hardly_falls;
+}
+
+/* The level of a floor, along both axes and below all other errors; 0: there is none. */
+static double floor_of(const struct br_orders *o, const struct br_quantity_orders *of)
+{
+    double lowest = INFINITY, level = 0;
+    for (int turn = 0; turn < 2; turn++)
+        for (size_t i = 0; i < o->numbers->rows; i++) {
+            const struct br_point *a = point_on(of, BR_AXIS_SPACE, i);
+            if (!a || !point_on(of, BR_AXIS_TIME, i) || !(a->error > 0))
+                continue;
+            if (turn == 0)
+                lowest = fmin(lowest, a->error);
+            else if (a->error < floor_margin * lowest && stays(&of->point[BR_AXIS_SPACE][i]) &&
+                     stays(&of->point[BR_AXIS_TIME][i]))
+                level = fmax(level, a->error);
+        }
+    return level;
+}
+
+/* An error that stays along one axis but falls along the other belongs to the other: no flag. One
+ * that stays along both is at a floor, also where a line takes that for its order, zero. */
+static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
+{
+    const double level = floor_of(o, of);
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        struct br_point *a = point_on(of, BR_AXIS_SPACE, i), *b = point_on(of, BR_AXIS_TIME, i);
+        if (!a || !b || a->flag == BR_FLAG_FAILED || !(a->error > 0))
+            continue;
+        if (a->error < floor_margin * level)
+            a->flag = b->flag = is_level(a->flag)   ? a->flag
+                                : is_level(b->flag) ? b->flag
+                                                    : BR_FLAG_STALLED;
+        else if (is_level(a->flag) != is_level(b->flag) || a->flag == BR_FLAG_NONE ||
+                 b->flag == BR_FLAG_NONE)
+            a->flag = b->flag = BR_FLAG_NONE;
+    }
+}
+
+static bool counts(const struct br_quantity_orders *of, size_t row)
+{
+    const struct br_point *a = point_on(of, BR_AXIS_SPACE, row),
+                          *b = point_on(of, BR_AXIS_TIME, row);
+    return (!a || a->flag == BR_FLAG_NONE) && (!b || b->flag == BR_FLAG_NONE);
+}
+
+static enum br_status fit_both(const struct br_orders *o, struct br_quantity_orders *of,
+                               struct br_error *err)
+{
+    const struct br_numbers *numbers = o->numbers;
+    struct br_observation *observation = br_allocate(numbers->rows, sizeof *observation);
+    size_t count = 0, at = 0;
+    of->flag = of->flag ? of->flag : br_allocate(numbers->rows, sizeof *of->flag);
+    enum br_status status = observation && of->flag ? BR_OK : br_no_memory(err, "the joint fit");
+    for (size_t i = 0; i < numbers->rows && !status; i++) {
+        const struct br_numbers_row *row = &numbers->row[i];
+        if (br_orders_counts(of, row) && counts(of, i))
+            observation[count++] =
+                (struct br_observation){.x = {row->z[BR_AXIS_SPACE], row->z[BR_AXIS_TIME]},
+                                        .error = row->number[of->quantity],
+                                        .rounding = br_orders_rounding(o, of->quantity, row)};
+    }
+    /* Rows are only left out, so the same number means the same rows. */
+    if (!status && !(count > 0 && count == of->joint.points + of->joint.left_out)) {
+        status = br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint, err);
+        for (size_t i = 0; i < numbers->rows && !status; i++)
+            of->flag[i] = br_orders_counts(of, &numbers->row[i]) && counts(of, i)
+                              ? observation[at++].flag
+                              : BR_FLAG_NONE;
+    }
+    free(observation);
+    return status;
+}
+
+/* Rows that the joint fit leaves out do not count on lines, either. */
+static void flag_lines(const struct br_orders *o, struct br_quantity_orders *of)
+{
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            struct br_point *p = point_on(of, (enum br_axis)axis, i);
+            if (p && of->flag[i] != BR_FLAG_NONE)
+                p->flag = of->flag[i];
+        }
+}
+
+/* ---- all ---- */
+
+bool br_orders_is_grid(const struct br_orders *o)
+{
+    return o->numbers->column[BR_AXIS_SPACE] && o->numbers->column[BR_AXIS_TIME] && !o->tied;
+}
+
+/* Values whose changes are their scatter show no order. */
+static bool is_scatter(const struct br_orders_line *line)
+{
+    return line->limits.limit.sequence == BR_SEQUENCE_SCATTER;
+}
+
+/* Finds the orders of all lines, which leaves out the errors that do not show them. On a grid,
+ * errors may stay along one axis since the error of the other axis is larger; where the joint fit
+ * describes all errors, none is left out. */
+static enum br_status observe_lines(const struct br_orders *o, struct br_quantity_orders *of,
+                                    bool leave_out, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t l = 0; l < of->lines && !status; l++) {
+        struct br_case *c = &of->line[l].observed;
+        status = stopped(o->numbers, err) ? err->status : br_case_observe(c, BR_ORDERS_LEAST, err);
+        const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
+        if (!status && (is_scatter(&of->line[l]) || size->is_degree))
+            br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);
+        else if (!status && !leave_out)
+            br_case_take_order(c, c->order, c->constant);
+    }
+    return status;
+}
+
+static enum br_status observe_all(const struct br_orders *o, struct br_quantity_orders *of,
+                                  struct br_error *err)
+{
+    const bool joint = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    enum br_status status = joint ? fit_both(o, of, err) : BR_OK;
+    const bool described = joint && br_joint_describes(&of->joint);
+    if (!status)
+        status = observe_lines(o, of, !described, err);
+    if (!status && described)
+        flag_lines(o, of);
+    if (status || !joint || described)
+        return status;
+    flag_corners(o, of);
+    return fit_both(o, of, err);
+}
+
+static bool holds(const struct br_estimate *interval, const struct br_estimate *order)
+{
+    return interval->low <= order->value && order->value <= interval->high;
+}
+
+/* The answer of a grid of errors without a joint fit: the order of a line only if the line at the
+ * next size shows the same one, else the error of the other axis bends it. */
+static struct br_orders_answer answer_of_lines(const struct br_quantity_orders *of,
+                                               const struct br_orders_line *finest)
+{
+    static const char *const bent[BR_AXES] = {
+        "the order in h is not the same at the two finest k, and no joint fit describes the "
+        "errors: a finer k, or more sizes of both, would show it",
+        "the order in k is not the same at the two finest h, and no joint fit describes the "
+        "errors: a finer h, or more sizes of both, would show it"};
+    const struct br_orders_line *next = finest > of->line ? finest - 1 : NULL;
+    const struct br_estimate *a = &finest->observed.order;
+    if (next && next->axis == finest->axis && holds(a, &next->observed.order) &&
+        holds(&next->observed.order, a))
+        return (struct br_orders_answer){*a, NULL};
+    return (struct br_orders_answer){{NAN, NAN, NAN}, bent[finest->axis]};
+}
+
+static struct br_orders_answer find_answer(const struct br_orders *o,
+                                           const struct br_quantity_orders *of, enum br_axis axis)
+{
+    static const char *const hidden[BR_AXES] = {
+        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
+        "coarser h, would show it",
+        "the order in k is hidden, since the error in h is larger everywhere: a finer h, or a "
+        "coarser k, would show it"};
+    static const char *const open[BR_AXES] = {
+        "the joint fit does not determine the order in h: more sizes of both would",
+        "the joint fit does not determine the order in k: more sizes of both would"};
+    static const char scatter[] = "no order is seen: coarser sizes, or more runs (--repeat), "
+                                  "would show one";
+    static const char none[] =
+        "no line has three sizes, and no joint fit describes the errors: more "
+        "sizes of both would show the order";
+    const struct br_orders_line *finest = br_orders_finest(of, axis);
+    const struct br_estimate *joint = &of->joint.order[axis];
+    const bool both = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    if (br_joint_describes(&of->joint)) {
+        const bool sure = br_order_determined(joint), small = of->joint.share[axis] < 0.5;
+        return (struct br_orders_answer){*joint, sure ? NULL : small ? hidden[axis] : open[axis]};
+    }
+    if (!finest || is_scatter(finest))
+        return (struct br_orders_answer){{NAN, NAN, NAN}, finest ? scatter : both ? none : NULL};
+    return both ? answer_of_lines(of, finest)
+                : (struct br_orders_answer){finest->observed.order, NULL};
+}
+
+/* The finest row of a line that has a number; the number of rows: there is none. */
+static size_t finest_row(const struct br_orders *o, const struct br_quantity_orders *of,
+                         const struct br_orders_line *line)
+{
+    for (size_t i = line->observed.points + 1; i-- > 0;) {
+        const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
+        if (!row->failure && !isnan(row->number[of->quantity]))
+            return line->row[i];
+    }
+    return o->numbers->rows;
+}
+
+/* The limit over both axes, from the finest value at which lines of both end. */
+static struct br_grid_limit limit_of_grid(const struct br_orders *o,
+                                          const struct br_quantity_orders *of)
+{
+    for (size_t row = o->numbers->rows; row-- > 0;) {
+        struct br_limit_along along[BR_AXES];
+        int found = 0;
+        for (const struct br_orders_line *line = of->line + 1; line < of->line + of->lines;
+             line++) {
+            const size_t next = finest_row(o, of, line - 1);
+            if (finest_row(o, of, line) == row && line[-1].axis == line->axis &&
+                next < o->numbers->rows) {
+                along[line->axis] =
+                    (struct br_limit_along){line->limits.limit, line[-1].limits.limit,
+                                            o->numbers->row[next].number[of->quantity]};
+                found |= 1 << line->axis;
+            }
+        }
+        if (found == 3)
+            return br_limit_of_grid(o->numbers->row[row].number[of->quantity], along);
+    }
+    return (struct br_grid_limit){.value = {NAN, NAN, NAN}, .order = NAN};
+}
+
+static enum br_status find_quantity(const struct br_orders *o, struct br_quantity_orders *of,
+                                    struct br_error *err)
+{
+    const struct br_numbers *numbers = o->numbers;
+    of->line = br_allocate(2 * numbers->rows, sizeof *of->line);
+    if (!of->line)
+        return br_no_memory(err, "the orders");
+    enum br_status status = stopped(numbers, err);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
+            status = br_orders_add_lines(o, of, (enum br_axis)axis, err);
+    if (!status)
+        status = observe_all(o, of, err);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        of->answer[axis] = find_answer(o, of, (enum br_axis)axis);
+    if (!status && numbers->quantity[of->quantity].is_value)
+        of->limit = br_orders_is_grid(o) ? limit_of_grid(o, of)
+                    : of->lines          ? of->line[of->lines - 1].limits.limit
+                                : (struct br_grid_limit){.value = {NAN, NAN, NAN}, .order = NAN};
+    return status;
+}
+
+/* Whether both axes are refined from each row to the next. */
+static bool are_tied(const struct br_orders *o)
+{
+    const struct br_numbers *numbers = o->numbers;
+    bool tied = br_orders_is_grid(o);
+    for (size_t i = 1; i < numbers->rows; i++)
+        for (int axis = 0; axis < BR_AXES; axis++)
+            tied &= numbers->row[i].z[axis] < numbers->row[i - 1].z[axis];
+    return tied;
+}
+
+enum br_status br_orders_find(const struct br_numbers *numbers, double formal, struct br_orders *o,
+                              struct br_error *err)
+{
+    *o = (struct br_orders){
+        .numbers = numbers, .formal = formal > 0 ? formal : 2, .assumed_formal = formal == 0};
+    if (formal != 0 && !(formal >= 1 && formal <= 10))
+        return br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
+    o->tied = are_tied(o);
+    o->of = br_allocate(numbers->quantities, sizeof *o->of);
+    if (!o->of)
+        return br_no_memory(err, "the orders");
+    enum br_status status = BR_OK;
+    for (; o->count < numbers->quantities && !status; o->count++) {
+        o->of[o->count].quantity = o->count;
+        status = find_quantity(o, &o->of[o->count], err);
+    }
+    return status;
+}
+
+void br_orders_clear(struct br_orders *o)
+{
+    for (size_t i = 0; i < o->count; i++) {
+        for (size_t l = 0; l < o->of[i].lines; l++) {
+            free(o->of[i].line[l].row);
+            free(o->of[i].line[l].observed.point);
+            br_limits_clear(&o->of[i].line[l].limits);
+            free(o->of[i].line[l].finest_of);
+        }
+        free(o->of[i].line);
+        free(o->of[i].flag);
+        for (int axis = 0; axis < BR_AXES; axis++)
+            free(o->of[i].point[axis]);
+    }
+    free(o->of);
+    *o = (struct br_orders){0};
+}
+
+const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *of,
+                                              enum br_axis axis)
+{
+    const struct br_orders_line *finest = NULL; /* lines come from coarse to fine */
+    for (size_t i = 0; i < of->lines; i++)
+        finest = of->line[i].axis == axis ? &of->line[i] : finest;
+    return finest;
+}

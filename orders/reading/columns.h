@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How a column states a resolution. */
+#ifndef BR_ORDERS_READING_COLUMNS_H
+#define BR_ORDERS_READING_COLUMNS_H
+
+#include <stdbool.h>
+
+#include "orders/axis.h"
+
+/* Const records. z is the number itself for a size; one over it for a number of elements or steps;
+ * number^(-1/dimension) for unknowns. */
+struct br_resolution_column {
+    const char *name; /* "n", "h", "dofs", "cells", "points", "interior", "level", "k", "dt" ... */
+    const char *states; /* "h = 1/n" */
+    enum br_axis axis;
+    bool is_size;   /* z is the number itself */
+    bool is_volume; /* z is the number^(-1/dimension) */
+    bool is_power;  /* z is 2^-number; where all are false, one over the number and `more` */
+    int more;       /* intervals that a number of points has more than points: -1, or 1 */
+    bool is_degree; /* of polynomials: errors over it have no order, but may fall exponentially */
+};
+enum { BR_RESOLUTIONS = 10 };
+extern const struct br_resolution_column
+    br_resolution_columns[BR_RESOLUTIONS + 1]; /* ends with a NULL name */
+const struct br_resolution_column *br_resolution_column_find(const char *name);
+extern const struct br_resolution_column br_degree_column; /* no row: a table alone has it */
+
+/* z of a number of the column. */
+double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
+
+/* The number that states a size z, or the next finer whole one. */
+double br_numbers_given(const struct br_resolution_column *column, double z, double dimension);
+
+#endif

@@ -1,0 +1,530 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What numbers say for and against a reading. Each evidence has one row in a table. */
+#include <math.h>
+#include <string.h>
+
+#include "orders/reading/roles.h"
+
+/* A candidate, its rows from coarse to fine, and what its sizes make of the rates. */
+struct view {
+    const struct br_roles *roles;
+    const struct br_candidate *candidate;
+    const size_t *sorted;
+    struct {
+        size_t columns, compared;
+        bool all, exact, near; /* of the columns */
+    } rates;
+};
+
+/* Two neighbours of a line, from coarse to fine. */
+struct pair {
+    size_t coarse, fine;
+    double ratio; /* log of coarse over fine size */
+};
+
+/* Takes the next two neighbours from *at on. */
+static bool next_pair(const struct view *v, size_t *at, struct pair *pair)
+{
+    const double *log_z = v->candidate->log_z;
+    for (; v->sorted[*at] != BR_NO_ROW && v->sorted[*at + 1] != BR_NO_ROW; ++*at) {
+        *pair = (struct pair){v->sorted[*at], v->sorted[*at + 1], 0};
+        pair->ratio = log_z[pair->coarse] - log_z[pair->fine];
+        if (v->roles->line[pair->coarse] == v->roles->line[pair->fine] && pair->ratio > 1e-9)
+            return ++*at;
+    }
+    return false;
+}
+
+static const struct br_role_column *own(const struct view *v)
+{
+    static const struct br_role_column none = {.is_whole = true}; /* h halves from row to row */
+    return v->candidate->size.column == BR_NO_ROW ? &none
+                                                  : &v->roles->column[v->candidate->size.column];
+}
+
+static bool has_name(const struct view *v, const char *name)
+{
+    return strcmp(v->candidate->size.states->name, name) == 0;
+}
+
+/* ---- rates ---- */
+
+/* Whether a column may have errors, or values. */
+static bool may_have_errors(const struct view *v, size_t i)
+{
+    const struct br_role_column *c = &v->roles->column[i];
+    return i != v->candidate->size.column && c->role != BR_ROLE_CASE && c->numbers > c->words &&
+           c->numbers >= 2 && c->most > 0 && c->kind != BR_KIND_RATE && c->kind != BR_KIND_COST &&
+           c->kind != BR_KIND_FACTOR && c->kind != BR_KIND_DEVIATION;
+}
+
+static double of_digit(const struct br_role_column *c, size_t row)
+{
+    return fabs(c->rounding[row] * c->number[row]);
+}
+
+struct residual {
+    size_t compared;
+    double worst; /* that is beyond the digits */
+    double whole; /* largest */
+    double sum;
+};
+
+/* Compares rates with those of a column of errors; finer: rates stand at the finer of two sizes. */
+static struct residual compare_rates(const struct view *v, const struct br_role_column *rate,
+                                     const struct br_role_column *e, bool finer)
+{
+    const double most = 0.06, least = 0.006; /* of a printed rate */
+    const double coarse = 0.15;              /* of the rate of two errors with few digits */
+    const struct br_role_column *z = own(v);
+    struct residual found = {0};
+    struct pair p;
+    double sign = 0; /* of rates over a count, which some print */
+    for (size_t i = 0; i < v->roles->rows; i++)
+        sign += isnan(rate->number[i]) ? 0 : rate->number[i];
+    for (size_t at = 0; next_pair(v, &at, &p);) {
+        const size_t row = finer ? p.fine : p.coarse;
+        const double seen = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
+        const double of_sizes =
+            z->is_whole ? 0 : fabs(seen) * (z->rounding[p.coarse] + z->rounding[p.fine]);
+        const double digits =
+            -log1p(-e->rounding[p.coarse]) - log1p(-e->rounding[p.fine]) + of_sizes;
+        if (isnan(rate->number[row]) || !isfinite(seen))
+            continue;
+        const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
+        const double beyond = off - fmin(most, fmax(least, of_digit(rate, row)));
+        if (beyond > coarse && beyond <= digits / p.ratio) /* too few digits to tell */
+            continue;
+        found.worst = fmax(found.worst, beyond - fmin(coarse, digits / p.ratio));
+        found.compared++;
+        found.sum += off;
+        found.whole = fmax(found.whole, off);
+    }
+    return found;
+}
+
+/* What a column of errors makes of a column of rates. They stand at the finer of two sizes, unless
+ * more of them stand at the coarser one. */
+static struct residual compare_column(const struct view *v, const struct br_role_column *rate,
+                                      size_t column)
+{
+    const struct br_role_column *e = &v->roles->column[column];
+    const struct residual at_finer = compare_rates(v, rate, e, true);
+    const struct residual at_coarser = compare_rates(v, rate, e, false);
+    return at_coarser.compared > at_finer.compared ? at_coarser : at_finer;
+}
+
+/* The best that any column of errors makes of a column of rates. */
+static struct residual best_of_rates(const struct view *v, const struct br_role_column *rate)
+{
+    struct residual best = {0, INFINITY, INFINITY, INFINITY};
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        if (!may_have_errors(v, i))
+            continue;
+        const struct residual found = compare_column(v, rate, i);
+        if (found.compared && found.whole <= best.whole)
+            best = found;
+    }
+    return best;
+}
+
+static void find_rates(struct view *v)
+{
+    v->rates.all = v->rates.exact = v->rates.near = true;
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        if (c->kind != BR_KIND_RATE || i == v->candidate->size.column || c->numbers == 0 ||
+            c->role == BR_ROLE_CASE)
+            continue;
+        const struct residual best = best_of_rates(v, c);
+        if (!best.compared || (!c->name && best.worst > 0)) /* without a name it may be a factor */
+            continue;
+        v->rates.columns++;
+        v->rates.compared = best.compared > v->rates.compared ? best.compared : v->rates.compared;
+        v->rates.all &= best.worst <= 0;
+        v->rates.exact &= best.worst <= 0 && best.whole <= 0.006;
+        v->rates.near &= best.whole <= 0.15 || best.sum <= 0.1 * (double)best.compared;
+    }
+}
+
+static double reproduces(const struct view *v)
+{
+    return v->rates.columns && v->rates.all ? v->rates.compared > 1 ? 1 : 0.5 : 0;
+}
+
+static double is_exact(const struct view *v)
+{
+    return v->rates.columns && v->rates.exact && v->rates.compared > 1;
+}
+
+static double contradicts(const struct view *v)
+{
+    return v->rates.columns && !v->rates.all && !v->rates.near;
+}
+
+/* ---- growth ---- */
+
+/* Whether a number and `more` grow by this factor from each mesh to the next: within 2 %, or
+ * steadily to it. */
+static bool grows_by(const struct view *v, double more, double factor, bool steadily)
+{
+    const double *number = own(v)->number;
+    size_t pairs = 0;
+    double before = steadily ? 0.25 : 0.02, off = 1;
+    struct pair p;
+    for (size_t at = 0; number && next_pair(v, &at, &p); pairs++) {
+        off = fabs((number[p.fine] + more) / (number[p.coarse] + more) / factor - 1);
+        if (!(off <= before + 1e-9))
+            return false;
+        before = steadily ? off : before;
+    }
+    return pairs >= 2 && off <= 0.08;
+}
+
+static bool grows_in(const struct view *v, double dimension)
+{
+    const bool dofs = has_name(v, "dofs");
+    return grows_by(v, 0, pow(2, dimension), dofs) ||
+           (dimension > 1 && grows_by(v, 0, pow(3, dimension), dofs));
+}
+
+/* Whether the heading is a usual name of any size. */
+static bool has_usual_name(const struct view *v)
+{
+    return own(v)->by_hand || own(v)->named > BR_ANY_NAME;
+}
+
+static double grows(const struct view *v)
+{
+    const struct br_resolution_column *c = v->candidate->size.states;
+    const double odds = has_usual_name(v) ? 1 : 0.25; /* anything may grow so */
+    if (c->is_volume)
+        return odds * grows_in(v, v->candidate->size.dimension);
+    return odds * (c->more && grows_by(v, c->more, 2, false));
+}
+
+static double is_two_dimensional(const struct view *v)
+{
+    return has_name(v, "dofs") && v->candidate->size.dimension == 2 && !grows_in(v, 1) &&
+           !grows_in(v, 2) && !grows_in(v, 3);
+}
+
+/* Whether all sizes fall by one factor. */
+static bool falls_by(const struct view *v, double ratio)
+{
+    size_t pairs = 0;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p); pairs++)
+        if (!(fabs(p.ratio - ratio) <= 2e-3))
+            return false;
+    return pairs >= 2;
+}
+
+static double halves(const struct view *v)
+{
+    return falls_by(v, log(2));
+}
+
+static double counts_up(const struct view *v)
+{
+    struct pair p;
+    size_t pairs = 0;
+    bool one = v->candidate->size.states->is_power;
+    for (size_t at = 0; one && next_pair(v, &at, &p); pairs++)
+        one = fabs(p.ratio - log(2)) < 1e-9;
+    return v->candidate->size.states->is_power && !(one && pairs >= 2);
+}
+
+/* ---- errors ---- */
+
+/* How a column changes from coarse to fine: the mean of logs, for each e-fold of the size. */
+static double fall_of(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    double fall = 0, size = 0;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p);) {
+        const double by = log(fabs(e[p.coarse] / e[p.fine]));
+        if (!isfinite(by))
+            continue;
+        fall += by;
+        size += p.ratio;
+    }
+    return size > 0 ? fall / size : 0;
+}
+
+/* Whether a column falls below what it is at the coarsest size of a line, also where round-off lets
+ * it grow again. */
+static bool dips(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    double first = NAN;
+    size_t line = BR_NO_ROW;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p);) {
+        first = line == v->roles->line[p.coarse] && !isnan(first) ? first : fabs(e[p.coarse]);
+        line = v->roles->line[p.coarse];
+        if (fabs(e[p.fine]) < 0.95 * first)
+            return true;
+    }
+    return false;
+}
+
+/* Whether a column grows from each size to the next finer one, as far as it changes. */
+static bool climbs(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    size_t pairs = 0;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p); pairs++)
+        if (fabs(e[p.fine]) < 0.999 * fabs(e[p.coarse]))
+            return false;
+    return pairs > 1 && fall_of(v, column) < -0.05;
+}
+
+static bool hardly_changes(const struct br_role_column *c)
+{
+    return c->most - c->least <= 0.2 * fabs(c->most);
+}
+
+/* Whether no error falls with these sizes, and one grows from each to the next. */
+static double grow_all(const struct view *v)
+{
+    bool grow = false;
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        if (!may_have_errors(v, i) || c->least < 0 || c->is_value ||
+            (c->is_whole && c->kind != BR_KIND_ERROR) ||
+            (hardly_changes(c) && c->kind != BR_KIND_ERROR) ||
+            (c->by_hand && c->role != BR_ROLE_ERROR))
+            continue;
+        if (dips(v, i))
+            return false;
+        grow |= climbs(v, i);
+    }
+    return grow;
+}
+
+static double some_fall(const struct view *v)
+{
+    bool falls = false;
+    for (size_t i = 0; i < v->roles->columns && !falls; i++)
+        falls = may_have_errors(v, i) && !v->roles->column[i].is_whole &&
+                !v->roles->column[i].is_value && v->roles->column[i].least >= 0 && dips(v, i);
+    return falls;
+}
+
+/* ---- other columns ---- */
+
+bool br_evidence_same(const struct br_roles *r, const double *a, const double *b, double tolerance)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < r->rows; i++) {
+        const double by = a[i] - b[i];
+        if (isnan(by))
+            continue;
+        low = fmin(low, by);
+        high = fmax(high, by);
+    }
+    return high - low <= tolerance;
+}
+
+/* Whether another column states the same sizes, in a usual way. */
+static bool agrees(const struct view *v, size_t column, const struct br_resolution_column *states,
+                   double dimension)
+{
+    const struct br_role_column *c = &v->roles->column[column];
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; v->sorted[i] != BR_NO_ROW; i++) {
+        const size_t row = v->sorted[i];
+        const double by =
+            log(br_numbers_z(states, c->number[row], dimension)) - v->candidate->log_z[row];
+        if (!isfinite(by))
+            return false;
+        low = fmin(low, by);
+        high = fmax(high, by);
+    }
+    return high - low <= 0.01;
+}
+
+static double has_a_second(const struct view *v)
+{
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        if (i == v->candidate->size.column || c->kind == BR_KIND_COST || c->kind == BR_KIND_RATE ||
+            c->kind == BR_KIND_ERROR || c->words || !(c->least < c->most))
+            continue;
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++) {
+            const bool named = br_odds(c, s) > 1.5;
+            if (!named && br_odds(own(v), v->candidate->size.states) <= 0.5)
+                continue; /* of two unknown columns one may have errors of order one */
+            if (s->axis != BR_AXIS_SPACE || strcmp(s->name, "dofs") == 0 ||
+                !(named || (br_odds(c, br_resolution_columns) < BR_USUAL_NAME && c->is_whole &&
+                            !s->is_size && c->least >= 1)))
+                continue;
+            for (int d = 1; d <= (s->is_volume ? 3 : 1); d++)
+                if (agrees(v, i, s, d))
+                    return 1;
+        }
+    }
+    return 0;
+}
+
+/* Unknowns and cells, beside a column that is called h, n or level. */
+static double is_beside_a_size(const struct view *v)
+{
+    for (size_t i = 0; i < v->roles->columns && v->candidate->size.states->is_volume; i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+            if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
+                c->least < c->most && c->numbers == v->roles->rows &&
+                br_odds(c, s) >= BR_USUAL_NAME)
+                return 1;
+    }
+    return 0;
+}
+
+static double name(const struct view *v)
+{
+    return br_odds(own(v), v->candidate->size.states);
+}
+
+static double by_hand(const struct view *v)
+{
+    return own(v)->stated == v->candidate->size.states;
+}
+
+static double is_no_count(const struct view *v)
+{
+    return !v->candidate->size.states->is_size && !own(v)->is_whole &&
+           !strpbrk(own(v)->name ? own(v)->name : "", "/");
+}
+
+/* ---- the tables ---- */
+
+static const struct {
+    double (*holds)(const struct view *v); /* 0: no, 1: yes */
+    double log_odds;
+    const char *why;
+} of_sizes[] = {
+    {by_hand, 99, "--column says so"},
+    {name, 1, "its heading"},
+    {reproduces, 6, "it gives the rates of the table, within their digits"},
+    {is_exact, 3, "it gives them to the last digit"},
+    {contradicts, -4, "it gives other rates than the table"},
+    {grows, 2, "it grows as a number of this kind does where h halves"},
+    {is_two_dimensional, 1.5, "most meshes with unknowns are 2-D"},
+    {halves, 0.75, "its sizes halve"},
+    {counts_up, -4, "levels count by one"},
+    {has_a_second, 3, "another column states the same sizes"},
+    {is_beside_a_size, -4, "another column is called h, n or level"},
+    {some_fall, 0.5, "something falls with its sizes"},
+    {grow_all, -3, "all that may be errors grows where its sizes fall"},
+    {is_no_count, -3, "a count is whole"},
+};
+
+void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *c, const size_t *sorted)
+{
+    struct view v = {roles, c, sorted, {0}};
+    find_rates(&v);
+    c->odds = 0;
+    for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++)
+        c->odds += of_sizes[i].log_odds * of_sizes[i].holds(&v);
+    c->agrees_with_rates = reproduces(&v) > 0;
+    c->contradicts_rates = contradicts(&v) > 0;
+    c->wrong_way = grow_all(&v) > 0;
+}
+
+/* ---- errors, over sizes ---- */
+
+struct error_view {
+    struct view v;
+    size_t column;
+};
+
+static const struct br_role_column *tried(const struct error_view *e)
+{
+    return &e->v.roles->column[e->column];
+}
+
+static bool is_error_by_name(const struct error_view *e)
+{
+    return tried(e)->kind == BR_KIND_ERROR;
+}
+
+static bool is_of_another_kind(const struct error_view *e)
+{
+    return tried(e)->kind != BR_KIND_ERROR && tried(e)->kind != BR_KIND_UNKNOWN &&
+           !(tried(e)->kind == BR_KIND_DEGREE && !tried(e)->is_whole);
+}
+
+static bool falls(const struct error_view *e)
+{
+    return dips(&e->v, e->column);
+}
+
+static bool is_count(const struct error_view *e)
+{
+    return climbs(&e->v, e->column) && tried(e)->is_whole && tried(e)->most > 1;
+}
+
+static bool stays(const struct error_view *e)
+{
+    return hardly_changes(tried(e));
+}
+
+/* The error of a coefficient falls further. */
+static bool has_a_limit(const struct error_view *e)
+{
+    const double most = 20;
+    const char *name = tried(e)->name;
+    return name && br_is_coefficient(name) && tried(e)->most < most * tried(e)->least;
+}
+
+static bool has_a_sign(const struct error_view *e)
+{
+    return tried(e)->least < 0 && !is_error_by_name(e);
+}
+
+static bool has_words(const struct error_view *e)
+{
+    return tried(e)->numbers <= tried(e)->words;
+}
+
+static const struct {
+    bool (*holds)(const struct error_view *e);
+    double log_odds;
+    const char *why;
+} of_errors[] = {
+    {is_error_by_name, 3.5, "its heading"},
+    {is_of_another_kind, -5, "its heading is of a rate, a cost, a deviation or a degree"},
+    {falls, 1.5, "it falls with the sizes"},
+    {is_count, -4, "it counts"},
+    {stays, -2.5, "it hardly changes"},
+    {has_a_limit, -4, "it is a coefficient, and does not fall far"},
+    {has_a_sign, -9, "it has both signs"},
+    {has_words, -99, "it has words"},
+};
+
+double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
+                             const size_t *sorted, size_t column)
+{
+    struct error_view e = {{roles, candidate, sorted, {0}}, column};
+    double odds = 0;
+    for (size_t i = 0; i < sizeof of_errors / sizeof *of_errors; i++)
+        odds += of_errors[i].holds(&e) ? of_errors[i].log_odds : 0;
+    return odds;
+}
+
+double br_evidence_order(const struct br_roles *roles, const struct br_candidate *candidate,
+                         const size_t *sorted, size_t column)
+{
+    const struct view v = {roles, candidate, sorted, {0}};
+    return fall_of(&v, column);
+}
+
+bool br_evidence_halves(const struct br_roles *roles, const struct br_candidate *candidate,
+                        const size_t *sorted)
+{
+    return halves(&(struct view){roles, candidate, sorted, {0}}) > 0;
+}

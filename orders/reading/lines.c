@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "orders/reading/lines.h"
+#include "orders/reading/reading.h"
+
+/* ---- signs of a text ---- */
+
+/* The letter that stands for the sign of a text that begins here, and its bytes; zero: there is
+ * none, and the bytes stay, or go where there are some. */
+static char plain_sign(const char *at, size_t *bytes)
+{
+    static const char *const blanks[] = {"\u00a0", "\u2002", "\u2003", "\u2007", "\u2009",
+                                         "\u200a", "\u202f", "\u3000", "\r\n"};
+    for (size_t i = 0; i < sizeof blanks / sizeof *blanks; i++)
+        if (strncmp(at, blanks[i], strlen(blanks[i])) == 0) {
+            *bytes = strlen(blanks[i]);
+            return *at == '\r' ? '\n' : ' ';
+        }
+    *bytes = strncmp(at, "\ufeff", 3) == 0 || strncmp(at, "\u200b", 3) == 0 ? 3 : 0;
+    if (*bytes || strncmp(at, "\xe2\x94", 2) * strncmp(at, "\xe2\x95", 2) != 0 || !at[2])
+        return 0;
+    *bytes = 3; /* of boxes, U+2500 to 257F; upright: 2502, 2503, 2506, 2507, 250A, 250B, 2551 */
+    const bool upright =
+        at[1] == '\x94' ? strchr("\x82\x83\x86\x87\x8a\x8b", at[2]) != NULL : at[2] == '\x91';
+    return upright ? BR_BOX_BAR : '-';
+}
+
+/* Quoted texts stay as they are, to the end of their line: they may be names. */
+static void make_plain(char *text)
+{
+    char *to = text, before = '\n';
+    bool quoted = false;
+    for (size_t bytes; *text; before = text[bytes - 1], text += bytes) {
+        bytes = 0;
+        if (*text == '"' || *text == '\n')
+            quoted = *text == '"' && !quoted && strchr("\n\t ,;|&", before);
+        const char sign = *text == '\r' || (!quoted && (unsigned char)*text >= 0x80)
+                              ? plain_sign(text, &bytes)
+                              : 0;
+        if (!bytes) {
+            *to++ = *text == '\r' ? '\n' : *text;
+            bytes = 1;
+        } else if (sign)
+            *to++ = sign;
+    }
+    *to = '\0';
+}
+
+/* ---- kinds of lines ---- */
+
+/* Whether a line has the types of columns alone, as Julia, polars and R print them. */
+static bool has_types(const char *line)
+{
+    static const char types[] = " Int64 Int32 Float64 Float32 String Bool Date DateTime i8 i16 i32 "
+                                "i64 u8 u16 u32 u64 f32 f64 str bool date <dbl> <int> <chr> <lgl> "
+                                "<fct> <date> <dttm> ";
+    static const char between[] = " |?\t\x01";
+    for (line += strspn(line, between); *line; line += strspn(line, between)) {
+        char word[16];
+        const size_t length = strcspn(line, between);
+        snprintf(word, sizeof word, " %.*s ", length < 12 ? (int)length : 12, line);
+        if (!strstr(types, word))
+            return false;
+        line += length;
+    }
+    return true;
+}
+
+/* Skips a command that lays out LaTeX, with what it is given; NULL: there is none. */
+static char *skip_command(char *line)
+{
+    static const char commands[] =
+        " \\hline \\toprule \\midrule \\bottomrule \\cline \\cmidrule \\begin \\end \\centering "
+        "\\label \\addlinespace \\rowcolor \\noalign \\small \\footnotesize \\scriptsize \\tiny ";
+    char word[20];
+    const size_t letters = *line == '\\' ? strspn(line + 1, "abcdefghijklmnopqrstuvwxyz") : 0;
+    snprintf(word, sizeof word, " %.*s ", letters < 16 ? (int)letters + 1 : 17, line);
+    if (!letters || !strstr(commands, word))
+        return NULL;
+    line += letters + 1;
+    while (*line && strchr("{[(", *line)) {
+        line += strcspn(line, "}])");
+        line += *line != '\0';
+    }
+    return line + strspn(line, " \t");
+}
+
+/* Finds the kind of a line without the blanks around it. */
+static void find_kind(struct br_line *line)
+{
+    static const char rules[] = "-+=|:_*~.,; \t&\x01";
+    for (char *rest; (rest = skip_command(line->text));)
+        line->text = rest;
+    const size_t sign = strncmp(line->text, "//", 2) == 0 ? 2 : strspn(line->text, "#%!");
+    const char *const excel = line->text + (*line->text == '"');
+    const bool is_separator = strncmp(excel, "sep=", 4) == 0 && strlen(excel) <= 6;
+    line->kind = is_separator || line->text[strspn(line->text, rules)] == '\0' ||
+                         line->text[sign + strspn(line->text + sign, rules)] == '\0' ||
+                         has_types(line->text)
+                     ? BR_LINE_EMPTY
+                 : sign ? BR_LINE_COMMENT
+                        : BR_LINE_TEXT;
+    if (line->kind == BR_LINE_COMMENT)
+        line->text += sign + strspn(line->text + sign, " \t");
+}
+
+/* ---- lines ---- */
+
+/* Skips a quoted text; returns its last quote; NULL: it is not closed. */
+static const char *skip_quoted(const char *at)
+{
+    for (at++; *at && (*at != '"' || at[1] == '"'); at++)
+        at += *at == '"';
+    return *at ? at : NULL;
+}
+
+/* The end of a line, which quotes at the begin of a piece may hold; NULL: one is open to the end.
+ */
+static const char *line_end(const char *at)
+{
+    const bool quotes = !strchr("#%!", at[strspn(at, " \t")]) || !*at;
+    char before = ',';
+    for (; *at && *at != '\n'; at++) {
+        if (*at == '"' && quotes && strchr(",;\t|&\x01", before) && !(at = skip_quoted(at)))
+            return NULL;
+        before = *at == ' ' ? before : *at;
+    }
+    return at;
+}
+
+/* Where a row of LaTeX ends in a line: at "\\"; NULL: it does not. */
+static char *row_end(char *line)
+{
+    return strchr(line, '&') ? strstr(line, "\\\\") : NULL;
+}
+
+static void add_line(struct br_line *line, char *text, size_t number)
+{
+    text += strspn(text, " \t");
+    size_t length = strlen(text);
+    while (length && text[length - 1] == ' ')
+        text[--length] = '\0';
+    *line = (struct br_line){text, number, BR_LINE_EMPTY};
+    find_kind(line);
+}
+
+/* The comment behind a row: behind numbers, and a blank; NULL: there is none. */
+static char *comment_in(char *line)
+{
+    const char *equals = strchr(line, '=');
+    const char *first = line + strspn(line, " \t|\x01\"+-.");
+    equals = equals ? equals + 1 + strspn(equals + 1, " +-.") : "";
+    char *const sign = strchr("#%!", *line) ? NULL : strstr(line, " #");
+    return sign && !strchr(sign, '"') &&
+                   (isdigit((unsigned char)*first) || isdigit((unsigned char)*equals))
+               ? sign + 1
+               : NULL;
+}
+
+/* Adds a line, or several: rows of LaTeX, a comment behind a row; returns how many. */
+static size_t add_rows(struct br_line *line, char *text, size_t number)
+{
+    size_t count = 0;
+    for (char *end; (end = row_end(text)); text = end) {
+        *end = '\0';
+        end += 2;
+        end += *end == '[' ? strcspn(end, "]") + 1 : 0;
+        add_line(&line[count++], text, number);
+    }
+    char *const comment = comment_in(text);
+    if (comment)
+        add_line(&line[count + 1], comment, number);
+    if (comment)
+        *comment = '\0';
+    add_line(&line[count], text, number);
+    return count + 1 + (comment != NULL);
+}
+
+/* A table that is a comment as a whole, as one in a program. */
+static void uncomment(struct br_line *line, size_t count)
+{
+    size_t comments = 0;
+    for (size_t i = 0; i < count; i++) {
+        comments += line[i].kind == BR_LINE_COMMENT;
+        if (line[i].kind == BR_LINE_TEXT)
+            return;
+    }
+    for (size_t i = 0; i < count && comments > 2; i++) {
+        line[i].text += strspn(line[i].text, "#%! \t");
+        find_kind(&line[i]);
+    }
+}
+
+enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
+                            struct br_line **lines, size_t *count, struct br_error *err)
+{
+    make_plain(text);
+    size_t most = 2;
+    for (const char *c = text; *c; c++)
+        most += *c == '\n' || *c == '#' || (c[0] == '\\' && c[1] == '\\');
+    struct br_line *const line = br_store_take(store, most, sizeof *line);
+    *lines = line;
+    *count = 0;
+    if (!line)
+        return br_no_memory(err, "the table");
+    size_t number = 1;
+    for (char *at = text; *at;) {
+        const char *const last = line_end(at);
+        const size_t first = number;
+        if (!last)
+            return br_fail(err, BR_BAD_INPUT, "%s:%zu: a quote is open to the end", path, number);
+        char *const begin = at, *const end = at + (last - at);
+        for (; at < end; at++)
+            number += *at == '\n';
+        number += *end == '\n';
+        at += *end != '\0';
+        *end = '\0';
+        *count += add_rows(&line[*count], begin, first);
+    }
+    uncomment(line, *count);
+    return BR_OK;
+}
+
+/* ---- pieces of a line ---- */
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+/* Whether a piece ends here; *bytes (out): of what separates it from the next one. */
+static bool ends_piece(const char *begin, const char *at, enum br_separator by, size_t *bytes)
+{
+    static const char signs[] = {
+        [BR_BY_TABS] = '\t',      [BR_BY_LONE_BARS] = '|',  [BR_BY_BARS] = '|',
+        [BR_BY_AMPERSANDS] = '&', [BR_BY_SEMICOLONS] = ';', [BR_BY_COMMAS] = ','};
+    *bytes = 1;
+    if (by == BR_BY_LONE_BARS && *at == '|')
+        return (at == begin || is_blank(at[-1])) && (!at[1] || is_blank(at[1]));
+    if (by < BR_BY_WIDE_BLANKS)
+        return (*at == signs[by] && (at == begin || at[-1] != '\\')) ||
+               ((by == BR_BY_BARS || by == BR_BY_LONE_BARS) && *at == BR_BOX_BAR);
+    *bytes = strspn(at, " \t\x01");
+    return at > begin && (*bytes >= (by == BR_BY_BLANKS ? 1 : 2) || (*bytes && *at != ' '));
+}
+
+/* The end of a quoted piece; NULL: it is not quoted. */
+static const char *quoted_end(const char *at, enum br_separator by)
+{
+    const char *end = *at == '"' ? skip_quoted(at) : NULL;
+    return end && (by < BR_BY_WIDE_BLANKS || !end[1] || is_blank(end[1])) ? end + 1 : NULL;
+}
+
+/* Where pieces of a line go. */
+struct splitter {
+    enum br_separator by;
+    char mark, *room;
+    struct br_piece *piece;
+    size_t count;
+};
+
+static char *copy(struct splitter *s, const char *begin, const char *end)
+{
+    char *const text = s->room;
+    memcpy(text, begin, (size_t)(end - begin));
+    text[end - begin] = '\0';
+    s->room += end - begin + 1;
+    return text;
+}
+
+/* A text in quotes, without these and the blanks around it, in place. */
+static char *unquote(char *text)
+{
+    char *to = text;
+    for (const char *at = text + 1; at[1]; at++) {
+        at += *at == '"';
+        *to++ = *at;
+    }
+    while (to > text && isspace((unsigned char)to[-1]))
+        to--;
+    *to = '\0';
+    return text + strspn(text, " \t");
+}
+
+static void add_piece(struct splitter *s, const char *begin, const char *end, const char *name)
+{
+    struct br_field_number number;
+    const char *const close = quoted_end(begin, s->by);
+    const bool quoted = close && close <= end;
+    char *text = copy(s, begin, end);
+    text = quoted && close == end ? unquote(text) : text;
+    s->piece[s->count++] = (struct br_piece){text, name,
+                                             quoted && close < end                   ? BR_BROKEN
+                                             : !*text                                ? BR_NOTHING
+                                             : br_field_is_missing(text)             ? BR_MISSING
+                                             : br_field_read(text, s->mark, &number) ? BR_NUMBER
+                                                                                     : BR_WORD};
+}
+
+/* Whether the blanks at `at` stand in a number: "1.0 x 10^-2", "1.2 +- 0.1", "5 %". */
+static bool is_in_number(const char *begin, const char *at, size_t blanks)
+{
+    static const char *const signs[] = {"x",  "*",   "\u00d7", "\u00b7", "\\times", "\\cdot",
+                                        "+-", "+/-", "\u00b1", "\\pm",   "%",       "\\%"};
+    const char *const next = at + blanks;
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++) {
+        const size_t size = strlen(signs[i]);
+        const bool ahead = strncmp(next, signs[i], size) == 0 && isdigit((unsigned char)at[-1]);
+        if (ahead && (strchr(signs[i], '%')
+                          ? !next[size] || is_blank(next[size])
+                          : is_blank(next[size]) &&
+                                isdigit((unsigned char)next[size + strspn(next + size, " ")])))
+            return true;
+        if (!strchr(signs[i], '%') && at - begin > (long)size + 1 &&
+            is_blank(at[-(long)size - 1]) && strncmp(at - size, signs[i], size) == 0 &&
+            isdigit((unsigned char)*next) && isdigit((unsigned char)*begin))
+            return true;
+    }
+    return false;
+}
+
+/* The end of a norm, "||u||", that a piece begins with; NULL: there is none. */
+static const char *norm_end(const char *at)
+{
+    const bool begins = strncmp(at, "||", 2) == 0 && isalpha((unsigned char)at[2]);
+    const char *const end = begins ? strchr(at + 2, '|') : NULL;
+    return end && end[1] == '|' ? end + 2 : NULL;
+}
+
+static void split_signs(struct splitter *s, const char *at)
+{
+    const enum br_separator by = s->by;
+    size_t bytes = 0;
+    const bool bars = by == BR_BY_BARS;
+    const bool begins = bars || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
+    at += (begins && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
+    for (bool more = true; more && s->count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
+        while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
+            at++;
+        const char *const begin = at, *end = bars ? norm_end(at) : NULL;
+        end = end ? end : quoted_end(at, by);
+        at = end ? end : at;
+        while (*at && !(ends_piece(begin, at, by, &bytes) &&
+                        !(by == BR_BY_BLANKS && is_in_number(begin, at, bytes))))
+            at++;
+        for (end = at; end > begin && is_blank(end[-1]); end--)
+            ;
+        add_piece(s, begin, end, NULL);
+        more = *at && (by < BR_BY_WIDE_BLANKS || at[bytes]);
+    }
+}
+
+/* The begin of the last name in a text from `at` to `end`: behind gaps, signs and numbers. */
+static const char *begin_of_name(const char *at, const char *end)
+{
+    const char *begin = at;
+    for (const char *word = at, *next; word < end; word = next) {
+        const size_t length = strcspn(word, " \t");
+        next = word + length + strspn(word + length, " \t");
+        const bool no_name = strspn(word, "+-.:;,|\x01"
+                                          "0123456789") >= length;
+        const bool is_last = length && strchr(",;:|", word[length - 1]);
+        if (next < end && (no_name || is_last || next > word + length + 1))
+            begin = next;
+    }
+    while (begin < end && strchr(",; \t\x01", *begin))
+        begin++;
+    return begin;
+}
+
+/* Whether a word from `at` to `end` is a number; then adds the last one, named by what is before
+ * it. */
+static bool add_label(struct splitter *s, const char *at, const char *end)
+{
+    const char *last = NULL, *last_end = NULL;
+    struct br_field_number number;
+    for (const char *word = at, *next; word < end; word = next) {
+        char text[64];
+        word += strspn(word, " \t,;:");
+        next = word + strcspn(word, " \t,;:");
+        next = next < end ? next : end;
+        snprintf(text, sizeof text, "%.*s",
+                 next > word && next < word + 64 ? (int)(next - word) : 0, word);
+        if (br_field_read(text, '.', &number)) {
+            last = word;
+            last_end = next;
+        }
+    }
+    if (!last)
+        return false;
+    const char *behind = last;
+    while (behind > at && is_blank(behind[-1]))
+        behind--;
+    const char *const name = copy(s, at, behind);
+    add_piece(s, last, last_end, name);
+    return true;
+}
+
+/* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
+ * numbers between or behind them are no pairs. */
+static bool split_pairs(struct splitter *s, const char *at, char sign)
+{
+    at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
+    for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
+        const char *name = begin_of_name(at, equals), *end = equals;
+        const size_t before = s->count;
+        if (add_label(s, at, name) && (before > 0 || name - at > 60))
+            return false;
+        while (end > name && is_blank(end[-1]))
+            end--;
+        const char *const value = equals + 1 + strspn(equals + 1, " \t");
+        at = value;
+        while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
+               !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
+            at++;
+        add_piece(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
+        if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
+            return false; /* a time, as 12:30 */
+    }
+    return !add_label(s, at, at + strlen(at));
+}
+
+size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
+                     struct br_piece *piece)
+{
+    struct splitter s = {by, mark, room, piece, 0};
+    if (by <= BR_BY_COLONS)
+        return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
+    split_signs(&s, line);
+    return s.count;
+}

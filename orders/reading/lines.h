@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lines of a text, and the pieces of a line by one separator: for layout.c. */
+#ifndef BR_ORDERS_READING_LINES_H
+#define BR_ORDERS_READING_LINES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/status.h"
+
+enum br_line_kind {
+    BR_LINE_EMPTY, /* also rules, types of columns, commands that lay out LaTeX, "sep=;" */
+    BR_LINE_COMMENT,
+    BR_LINE_TEXT,
+};
+
+struct br_line {
+    char *text; /* ends with a zero; has newlines in quotes only; of a comment, behind its sign */
+    size_t number;
+    enum br_line_kind kind;
+};
+
+/* Cuts a text into lines, in place. Box drawing becomes bars (BR_BOX_BAR) and dashes, blanks of any
+ * kind are blanks. A LaTeX line ends at "\\". Fails with BR_BAD_INPUT where a quote is open to the
+ * end. */
+enum { BR_BOX_BAR = '\x01' };
+enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
+                            struct br_line **line, size_t *count, struct br_error *err);
+
+/* Pairs: "h = 0.1  e = 0.2", "n: 8, e: 0.1". */
+enum br_separator {
+    BR_BY_EQUALS,
+    BR_BY_COLONS,
+    BR_BY_TABS,
+    BR_BY_LONE_BARS, /* with a blank on each side: others stand in names, ||u|| */
+    BR_BY_BARS,
+    BR_BY_AMPERSANDS,
+    BR_BY_SEMICOLONS,
+    BR_BY_COMMAS,
+    BR_BY_WIDE_BLANKS, /* two or more */
+    BR_BY_BLANKS,
+    BR_SEPARATORS
+};
+
+enum br_content { BR_NOTHING, BR_MISSING, BR_NUMBER, BR_WORD, BR_BROKEN /* text behind a quote */ };
+
+/* A piece of a line, without its quotes and the blanks around it. */
+struct br_piece {
+    char *text;
+    const char *name; /* of a pair, or NULL */
+    enum br_content content;
+};
+
+/* Splits a line, with this mark of decimals; room (out) has BR_ROOM(line) bytes for the pieces.
+ * Returns their number, at most BR_MOST_COLUMNS + 2; 0: there are no pairs. */
+#define BR_ROOM(line) (3 * strlen(line) + 4)
+size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
+                     struct br_piece *piece);
+
+#endif

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the columns of a table are. Headings (names.c) and numbers (evidence.c) speak for and
+ * against each; the roles follow from all of it (roles.c, decide.c), or a question that an option
+ * answers. */
+#ifndef BR_ORDERS_READING_ROLES_H
+#define BR_ORDERS_READING_ROLES_H
+
+#include <stdint.h>
+
+#include "orders/reading/columns.h"
+#include "orders/reading/reading.h"
+
+enum br_role {
+    BR_ROLE_ASIDE,
+    BR_ROLE_SIZE, /* states the resolution of an axis */
+    BR_ROLE_ERROR,
+    BR_ROLE_VALUE,     /* its limit is not known */
+    BR_ROLE_DEVIATION, /* standard deviations of the numbers in column `of` */
+    BR_ROLE_DEGREE,    /* of polynomials: errors over it have no order in h */
+    BR_ROLE_CASE,      /* tells studies apart */
+};
+
+/* What a heading may be, apart from a size. */
+enum br_kind {
+    BR_KIND_UNKNOWN,
+    BR_KIND_ERROR,
+    BR_KIND_RATE,   /* orders from row to row */
+    BR_KIND_FACTOR, /* by which an error falls */
+    BR_KIND_COST,   /* time, iterations, the number of a row */
+    BR_KIND_DEVIATION,
+    BR_KIND_DEGREE,
+    BR_KIND_REPEAT, /* the number of a repeated run, a seed */
+};
+enum br_kind br_kind_of(const char *name);
+
+/* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
+int br_power_in(const char *name, char base[20]);
+
+/* Whether a name is that of a coefficient, which has a limit: "C_D", "cl", "drag". */
+bool br_is_coefficient(const char *name);
+
+/* Log odds that a column of this name and unit (NULL: none) states a resolution in this way. */
+double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column);
+
+/* Whether a field says that there is no number: "diverged". */
+bool br_is_gap(const char *text);
+
+struct br_role_column {
+    const char *shown;       /* the heading in the source; NULL: there is none */
+    const char *name, *unit; /* without its unit, or as --column names it; NULL: none */
+    const char *label;       /* its name, or its position from 1 on */
+    char position[24];
+    enum br_kind kind;
+    double odds[BR_RESOLUTIONS]; /* of its name, for each way to state a resolution */
+    double named;                /* the greatest of them */
+    double *number, *deviation;  /* rows; NaN: none */
+    double *rounding;            /* half a unit of the last digit, relative */
+    size_t numbers, words, gaps; /* how many fields are one or the other; gaps: "diverged" */
+    const char *gap;             /* the last */
+    bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
+    double least, most;
+
+    bool by_hand;                              /* --column says what it is */
+    const struct br_resolution_column *stated; /* by hand */
+    enum br_role role;
+    const char *why; /* why it is aside; static */
+    size_t of;       /* of deviations: their column */
+};
+
+/* A column that states the resolution of an axis. */
+struct br_size {
+    const struct br_resolution_column *states; /* NULL: there is none */
+    size_t column;
+    double dimension;
+};
+
+/* How a table is read by hand; texts may be NULL. */
+struct br_table_wishes {
+    const char *path;    /* for messages */
+    const char *columns; /* "dx=h,3=l2" */
+    const char *where;   /* "method=P1" */
+    const char *errors, *values;
+    double dimension; /* 0: nobody stated it */
+};
+
+/* From here on a name is a usual one: of one meaning, or of any. */
+#define BR_USUAL_NAME 4
+#define BR_ANY_NAME 0.5 /* more than that */
+
+static inline double br_odds(const struct br_role_column *c, const struct br_resolution_column *s)
+{
+    return c->odds[s - br_resolution_columns];
+}
+
+#define BR_NO_ROW SIZE_MAX /* no row, or no column */
+
+struct br_place {
+    size_t line, row;
+    double log_z;
+};
+
+struct br_roles {
+    const struct br_fields *fields;
+    const struct br_table_wishes *wishes;
+    struct br_store store; /* all that is below */
+    struct br_role_column *column;
+    size_t columns, rows;
+    const char **dropped;    /* rows: why the row is left aside; NULL: it is not; static */
+    size_t *group;           /* rows: the case */
+    size_t *line;            /* rows: the line along which one size changes */
+    struct br_place *place;  /* rows: room of br_decide_sort */
+    const char **group_name; /* groups: "method = P1"; a single one: "" */
+    size_t groups;
+    struct br_size size[BR_AXES];
+    double *log_z[BR_AXES]; /* rows; NaN: none */
+    bool halves;            /* no column: h halves from row to row, as rates say */
+    bool means;             /* of rows of one size their mean counts */
+    char assumed[400];      /* what is assumed, and what settles it; "": nothing */
+    bool assumed_dimension;
+};
+
+/* Finds the roles (out; clear them even after a failure). Fails with BR_BAD_INPUT where a column
+ * has no clear role, with the option that settles it; or with BR_NO_MEMORY. */
+enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
+                             struct br_roles *roles, struct br_error *err);
+void br_roles_clear(struct br_roles *roles); /* accepts zeros */
+
+/* Refuses the table: why, its headings, and how to name columns. word: an unknown heading, or NULL.
+ */
+enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
+                               struct br_error *err);
+
+/* "line 3"; "row 2" of a source without lines. Returns text. */
+char *br_row_place(const struct br_fields *fields, size_t row, char text[32]);
+
+/* Refuses a field of words in a column of numbers. */
+enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
+                                    struct br_error *err);
+
+/* ---- within the reading ---- */
+
+/* A column that may state a resolution. */
+struct br_candidate {
+    struct br_size size;
+    double *log_z; /* rows; NaN: none */
+    double odds;
+    bool agrees_with_rates, contradicts_rates, wrong_way;
+};
+
+/* Adds up the evidence for a candidate. sorted: rows from coarse to fine, line after line, and
+ * BR_NO_ROW. */
+void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candidate,
+                       const size_t *sorted);
+
+/* Log odds that a column has errors, over these sizes. */
+double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
+                             const size_t *sorted, size_t column);
+
+/* The slope of the numbers of a column over the sizes, in logs. */
+double br_evidence_order(const struct br_roles *roles, const struct br_candidate *candidate,
+                         const size_t *sorted, size_t column);
+
+/* Whether the sizes halve. */
+bool br_evidence_halves(const struct br_roles *roles, const struct br_candidate *candidate,
+                        const size_t *sorted);
+
+/* Whether two columns state the same sizes, to a factor. */
+bool br_evidence_same(const struct br_roles *roles, const double *log_a, const double *log_b,
+                      double tolerance);
+
+/* The rows that a candidate has, from coarse to fine, line after line (out: rows + 1). */
+void br_decide_sort(const struct br_roles *roles, const struct br_candidate *candidate,
+                    size_t *sorted);
+
+/* Chooses the sizes of both axes (decide.c): sets roles->size, ->chosen and what is assumed. */
+enum br_status br_decide_sizes(struct br_roles *roles, struct br_error *err);
+
+#endif

@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A source of numbers: a table. Its fields become columns with roles (orders/reading/), and these
+ * become rows of numbers. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/quote.h"
+#include "orders/reading/roles.h"
+#include "orders/request.h"
+
+/* A table that is made into numbers. */
+struct source {
+    const struct br_orders_request *request;
+    struct br_fields fields;
+    struct br_roles roles;
+    size_t *cell; /* rows of the table: the row of the numbers; owned */
+    struct br_numbers *numbers;
+    char *text; /* what is said; owned */
+    bool no_memory;
+};
+
+/* ---- rows ---- */
+
+struct key {
+    size_t row;
+    double z[BR_AXES];
+};
+
+static int by_z(const void *a, const void *b)
+{
+    const struct key *x = a, *y = b;
+    for (int i = 0; i < BR_AXES; i++)
+        if (x->z[i] != y->z[i])
+            return (x->z[i] < y->z[i]) - (x->z[i] > y->z[i]);
+    return (x->row > y->row) - (x->row < y->row);
+}
+
+/* Gives each row of the table that counts its row of the numbers: rows of one size share it where
+ * they are repeated runs, or of several studies. Returns the number of rows. */
+static size_t find_cells(struct source *s)
+{
+    const struct br_roles *r = &s->roles;
+    struct key *key = br_allocate(r->rows + 1, sizeof *key);
+    const bool shared = r->means || r->groups > 1;
+    size_t count = 0, cells = 0;
+    s->no_memory |= !key;
+    for (size_t i = 0; key && i < r->rows; i++) {
+        if (r->dropped[i])
+            continue;
+        key[count] = (struct key){i, {0, 0}};
+        for (int axis = 0; axis < BR_AXES; axis++)
+            if (r->log_z[axis] && isfinite(r->log_z[axis][i]))
+                key[count].z[axis] = round(r->log_z[axis][i] * 1e9);
+        count++;
+    }
+    if (key && shared)
+        qsort(key, count, sizeof *key, by_z);
+    for (size_t i = 0; i < count; i++) {
+        const bool same =
+            shared && i > 0 && key[i].z[0] == key[i - 1].z[0] && key[i].z[1] == key[i - 1].z[1];
+        cells += !same;
+        s->cell[key[i].row] = cells - 1;
+    }
+    free(key);
+    return cells;
+}
+
+/* ---- numbers ---- */
+
+static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_error *err)
+{
+    const struct br_roles *r = &s->roles;
+    struct br_numbers *n = s->numbers;
+    const struct br_size *size = &r->size[axis];
+    if (!size->states)
+        return BR_OK;
+    n->column[axis] = size->states;
+    if (axis == BR_AXIS_SPACE) {
+        n->dimension = size->dimension;
+        n->assumed = r->assumed_dimension;
+    }
+    for (size_t i = 0; i < r->rows; i++) {
+        if (r->dropped[i])
+            continue;
+        struct br_numbers_row *row = &n->row[s->cell[i]];
+        row->given[axis] =
+            r->halves ? round(-r->log_z[axis][i] / log(2)) : r->column[size->column].number[i];
+        row->z[axis] = br_numbers_z(size->states, row->given[axis], size->dimension);
+    }
+    const char *unit = r->halves ? NULL : r->column[size->column].unit;
+    if (unit && !(n->unit[axis] = strdup(unit)))
+        return br_no_memory(err, "the table");
+    return BR_OK;
+}
+
+/* The standard deviation of a number, from its field or from its column. */
+static double deviation_at(const struct br_roles *r, size_t row, size_t column)
+{
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].role == BR_ROLE_DEVIATION && r->column[i].of == column)
+            return r->column[i].number[row];
+    return r->column[column].deviation[row];
+}
+
+/* Puts the mean of repeated runs, with the standard deviation of the mean. */
+static void take_means(struct source *s, size_t group, size_t column, size_t quantity)
+{
+    const struct br_roles *r = &s->roles;
+    struct br_numbers *n = s->numbers;
+    for (size_t c = 0; c < n->rows; c++) {
+        double sum = 0, squares = 0;
+        size_t count = 0;
+        for (int pass = 0; pass < 2; pass++)
+            for (size_t i = 0; i < r->rows; i++) {
+                const double number = r->column[column].number[i];
+                if (r->dropped[i] || s->cell[i] != c || r->group[i] != group || isnan(number))
+                    continue;
+                count += !pass;
+                sum += pass ? 0 : number;
+                squares += pass ? pow(number - sum / (double)count, 2) : 0;
+            }
+        struct br_numbers_row *row = &n->row[c];
+        row->number[quantity] = count ? sum / (double)count : (double)NAN;
+        row->repeat = count > row->repeat ? count : row->repeat;
+        if (count > 1)
+            row->deviation[quantity] = sqrt(squares / (double)(count - 1) / (double)count);
+    }
+}
+
+static enum br_status take_numbers(struct source *s, size_t group, size_t column, size_t quantity,
+                                   struct br_error *err)
+{
+    const struct br_roles *r = &s->roles;
+    struct br_numbers *n = s->numbers;
+    if (br_roles_check_words(r, column, err))
+        return err->status;
+    for (size_t i = 0; i < n->rows && r->groups > 1; i++)
+        n->row[i].absent[quantity] = true;
+    for (size_t i = 0; i < r->rows; i++) {
+        if (r->dropped[i] || r->group[i] != group)
+            continue;
+        struct br_numbers_row *row = &n->row[s->cell[i]];
+        row->number[quantity] = r->column[column].number[i];
+        row->deviation[quantity] = deviation_at(r, i, column);
+        if (row->absent)
+            row->absent[quantity] = false;
+    }
+    if (r->means)
+        take_means(s, group, column, quantity);
+    return BR_OK;
+}
+
+static bool is_studied(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ERROR || c->role == BR_ROLE_VALUE;
+}
+
+static enum br_status take_quantity(struct source *s, size_t group, size_t column,
+                                    struct br_error *err)
+{
+    struct br_numbers *n = s->numbers;
+    const struct br_roles *r = &s->roles;
+    const struct br_role_column *c = &r->column[column];
+    const size_t quantity = n->quantities;
+    char *name;
+    const char *of = c->label, *group_name = r->group_name[group];
+    if (asprintf(&name, *group_name ? "%s [%s]" : "%s", of, group_name) < 0)
+        return br_no_memory(err, "the table");
+    const enum br_status status =
+        br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
+    free(name);
+    return status ? status : take_numbers(s, group, column, quantity, err);
+}
+
+static enum br_status take_quantities(struct source *s, struct br_error *err)
+{
+    const struct br_roles *r = &s->roles;
+    for (size_t i = 0; i < r->columns; i++)
+        for (size_t group = 0; group < r->groups && is_studied(&r->column[i]); group++)
+            if (br_observer_stops(s->request->observer))
+                return br_fail(err, BR_INTERRUPTED, "interrupted");
+            else if (take_quantity(s, group, i, err))
+                return err->status;
+    return BR_OK;
+}
+
+/* ---- what is said ---- */
+
+__attribute__((format(printf, 2, 3))) static void say(struct source *s, const char *format, ...)
+{
+    char *more = NULL, *all = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&more, format, arguments);
+    va_end(arguments);
+    if (length < 0 || asprintf(&all, "%s%s", s->text ? s->text : "", more) < 0)
+        s->no_memory = true;
+    else {
+        free(s->text);
+        s->text = all;
+    }
+    if (length >= 0)
+        free(more);
+}
+
+/* Moves what is said into the numbers. */
+static const char *keep(struct source *s)
+{
+    const char *text = s->text ? s->text : "";
+    char *copy = br_store_take(&s->numbers->store, strlen(text) + 1, 1);
+    if (copy)
+        strcpy(copy, text);
+    s->no_memory |= !copy;
+    free(s->text);
+    s->text = NULL;
+    return copy;
+}
+
+static const char *quoted(const char *text, char buffer[200])
+{
+    return br_quoted(buffer, 200, &br_for_text, text);
+}
+
+static void say_sizes(struct source *s, enum br_axis axis)
+{
+    const struct br_roles *r = &s->roles;
+    const struct br_size *size = &r->size[axis];
+    char text[200];
+    if (!size->states)
+        return;
+    if (r->halves) {
+        say(s, "no column of the mesh, and the rates show that h halves from row to row");
+        return;
+    }
+    say(s, "%s%s from column %s", s->text ? ", " : "", size->states->states,
+        quoted(r->column[size->column].label, text));
+    if (size->states->is_volume)
+        say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
+}
+
+static void say_columns(struct source *s, enum br_role role, const char *what)
+{
+    const struct br_roles *r = &s->roles;
+    char text[200];
+    size_t said = 0;
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].role == role)
+            say(s, "%s%s", said++ ? ", " : what, quoted(r->column[i].label, text));
+}
+
+static void leave(struct source *s, const char *why)
+{
+    struct br_numbers *n = s->numbers;
+    const char *what = keep(s);
+    if (what && n->left)
+        n->left[n->lefts++] = (struct br_left_aside){what, why};
+}
+
+/* Lists all that is left aside. */
+static void list_left(struct source *s)
+{
+    char text[32];
+    const struct br_roles *r = &s->roles;
+    const struct br_fields *f = &s->fields;
+    s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
+                                     sizeof *s->numbers->left);
+    s->no_memory |= !s->numbers->left;
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
+            say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
+            leave(s, r->column[i].why);
+        }
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].gaps) {
+            say(s, "%s: '%s'", r->column[i].label, r->column[i].gap);
+            leave(s, "not a number");
+        }
+    for (size_t i = 0; i < r->rows; i++)
+        if (r->dropped[i]) {
+            say(s, "%s", br_row_place(f, i, text));
+            leave(s, r->dropped[i]);
+        }
+    for (size_t i = 0; i < f->lefts; i++) {
+        say(s, "line %zu '%s'", f->left[i].line, f->left[i].text);
+        leave(s, f->left[i].why);
+    }
+}
+
+/* What is left aside, in groups of one reason. Of many rows and lines the first are named; the list
+ * has all. */
+static void say_left(struct source *s)
+{
+    enum { MOST = 4 };
+    const struct br_numbers *n = s->numbers;
+    char text[200];
+    for (size_t first = 0, end; first < n->lefts; first = end) {
+        for (end = first + 1; end < n->lefts && n->left[end].why == n->left[first].why;)
+            end++;
+        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0 ||
+                           strncmp(n->left[first].what, "row ", 4) == 0;
+        const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
+        for (size_t i = first; i < named; i++)
+            say(s, "%s%s",
+                i == 0       ? "; left aside: "
+                : i == first ? "; "
+                             : ", ",
+                quoted(n->left[i].what, text));
+        if (named < end)
+            say(s, ", and %zu more", end - named);
+        say(s, " (%s)", n->left[first].why);
+    }
+}
+
+/* Says what was taken for what. */
+static enum br_status state(struct source *s, struct br_error *err)
+{
+    const struct br_roles *r = &s->roles;
+    struct br_numbers *n = s->numbers;
+    list_left(s);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        say_sizes(s, (enum br_axis)axis);
+    say_columns(s, BR_ROLE_ERROR, "; errors: ");
+    say_columns(s, BR_ROLE_VALUE, "; values: ");
+    say_columns(s, BR_ROLE_DEVIATION, "; standard deviations: ");
+    say_columns(s, BR_ROLE_CASE, "; a study for each of: ");
+    if (r->means)
+        say(s, "; of rows of one size the mean");
+    if (*r->assumed && !(n->assumed && !strstr(r->assumed, "; ")))
+        say(s, "; %s", r->assumed);
+    say_left(s);
+    n->taken = keep(s);
+    if (*r->assumed) {
+        say(s, "%s", r->assumed);
+        n->unsettled = keep(s);
+    }
+    return s->no_memory ? br_no_memory(err, "the table") : BR_OK;
+}
+
+/* ---- all ---- */
+
+static enum br_status check_lists(const struct source *s, struct br_error *err)
+{
+    const struct br_roles *r = &s->roles;
+    const char **known = br_allocate(r->columns + 1, sizeof *known);
+    size_t count = 0;
+    for (size_t i = 0; i < r->columns && known; i++)
+        if (r->column[i].name && r->column[i].role != BR_ROLE_SIZE)
+            known[count++] = r->column[i].name;
+    const enum br_status status =
+        known ? br_orders_check_lists(s->request, s->numbers, known, count, err)
+              : br_no_memory(err, "the table");
+    free(known);
+    return status;
+}
+
+static enum br_status make_room(struct source *s, struct br_error *err)
+{
+    const struct br_roles *r = &s->roles;
+    struct br_numbers *n = s->numbers;
+    size_t studied = 0;
+    s->cell = br_allocate(r->rows + 1, sizeof *s->cell);
+    if (!s->cell)
+        return br_no_memory(err, "the table");
+    const size_t cells = find_cells(s);
+    for (size_t i = 0; i < r->columns; i++)
+        studied += is_studied(&r->column[i]);
+    if (s->no_memory || br_numbers_make_room(n, cells, studied * r->groups, err))
+        return s->no_memory ? br_no_memory(err, "the table") : err->status;
+    for (size_t i = 0; i < r->rows; i++)
+        if (!r->dropped[i])
+            n->row[s->cell[i]].line = s->fields.line[i];
+    for (size_t i = 0; i < n->rows && r->groups > 1; i++)
+        if (!(n->row[i].absent = br_allocate(studied * r->groups + 1, sizeof(bool))))
+            return br_no_memory(err, "the table");
+    return BR_OK;
+}
+
+/* There are no errors: a column may have values. */
+static enum br_status refuse_values(const struct source *s, struct br_error *err)
+{
+    const struct br_role_column *found = NULL;
+    char why[400], name[200] = "NAME", where[80] = "", text[32];
+    for (size_t i = s->roles.columns; i-- > 0;) {
+        const struct br_role_column *c = &s->roles.column[i];
+        if (c->role != BR_ROLE_ASIDE || !c->why || !strstr(c->why, "--value"))
+            continue;
+        quoted(c->label, name);
+        found = c;
+    }
+    for (size_t i = 0; found && i < s->roles.rows && !*where; i++)
+        if (found->number[i] < 0)
+            snprintf(where, sizeof where, ": %s has %g", br_row_place(&s->fields, i, text),
+                     found->number[i]);
+    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known%s)",
+             name, where);
+    return br_roles_refuse(&s->roles, why, NULL, err);
+}
+
+static enum br_status take_all(struct source *s, struct br_error *err)
+{
+    const struct br_table_wishes wishes = {
+        .path = br_orders_path(s->request),
+        .columns = s->request->columns,
+        .where = s->request->where,
+        .errors = s->request->errors,
+        .values = s->request->values,
+        .dimension = s->request->assumed_dimension ? 0 : s->request->dimension,
+    };
+    if (br_roles_find(&s->fields, &wishes, &s->roles, err) || make_room(s, err))
+        return err->status;
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (take_sizes(s, (enum br_axis)axis, err))
+            return err->status;
+    if (take_quantities(s, err) || state(s, err) || check_lists(s, err))
+        return err->status;
+    return s->numbers->quantities ? BR_OK : refuse_values(s, err);
+}
+
+enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
+                             struct br_error *err)
+{
+    struct source s = {.request = q, .numbers = numbers};
+    err->status = BR_OK;
+    enum br_status status =
+        br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
+    if (!status)
+        status = take_all(&s, err);
+    free(s.cell);
+    free(s.text);
+    br_roles_clear(&s.roles);
+    br_fields_clear(&s.fields);
+    return status;
+}
