@@ -56,12 +56,12 @@ extern BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES];
  * chosen on seeds that no published table uses. */
 #define BR_PRIOR_LIST(X)                                                                          \
     X(power, 0.45, 0, "the probability of one power alone")                                       \
-    X(drifts, 0.2, 0, "the constant of one power drifts from row to row, as on adaptive meshes")  \
+    X(drifts, 0.1, 0, "the constant of one power drifts from row to row, as on adaptive meshes")  \
     X(kink, 0.01, 0, "one power, then another: exact ones alone show it")                         \
     X(kink_coarse, 0.3, 0, "the order is that of the coarse rows of such a line")                 \
     X(exponential, 0.01, 0, "exponential convergence, of each g")                                 \
-    X(unexplained, 0.15, 0, "density of the log of an error that nothing explains: 7 units")      \
-    X(leaves_coarse, 0.6, 0, "one more row at the coarse end is not asymptotic")                  \
+    X(unexplained, 0.15, 1e-9, "density of the log of an error that nothing explains: 7 units")   \
+    X(leaves_coarse, 0.6, 1e-9, "one more row at the coarse end is not asymptotic")               \
     X(leaves_finest, 0.25, 0, "the finest row alone does not count")                              \
     X(leaves_fine, 0.1, 0, "the rows of the fine end, from some row on, show noise")              \
     X(both, 0.1, 1, "beside such rows a law that bends, too: what bends is then the noise")       \
