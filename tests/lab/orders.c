@@ -540,16 +540,18 @@ static void compare(const struct br_error_class *class, uint64_t seed, bool valu
 
 /* What lines and limits show together, as shares of 100, and the mean of the logarithm of widths.
  */
-enum { CLAIMS, COVERS, SILENT, FAILS, WIDTH, LIMITS, HELD, LIMIT_WIDTH, MEASURES };
-static const char *const measure_names[MEASURES] = {"claims", "covers",         "silent", "FAIL",
-                                                    "width",  "limits: claims", "covers", "width"};
+enum { CLAIMS, COVERS, SILENT, FAILS, FALSE_PASS, WIDTH, LIMITS, HELD, LIMIT_WIDTH, MEASURES };
+static const char *const measure_names[MEASURES] = {"claims",         "covers",     "silent",
+                                                    "FAIL",           "false PASS", "width",
+                                                    "limits: claims", "covers",     "width"};
 
 static void add_classes(const struct run *run, const struct br_error_class *class, try_one *try,
                         size_t lines, struct tally *sum, double *log_width)
 {
     for (size_t i = 0; class[i].name; i++) {
         struct tally t = {.width = run->width};
-        for (size_t k = 0; k < lines && class[i].group <= BR_HARD_ERRORS; k++)
+        const bool has_order = class[i].group <= BR_HARD_ERRORS || class[i].group == BR_TWO_ORDERS;
+        for (size_t k = 0; k < lines && has_order; k++)
             try(i, run->seed, k, &t);
         for (size_t k = 0; k < t.widths; k++)
             *log_width += log(fmax(t.width[k], 1e-6));
@@ -569,6 +571,7 @@ static void measure(const struct run *run, size_t lines, double m[MEASURES])
     m[COVERS] = 100 * (double)t.covers / (double)t.claims;
     m[SILENT] = 100 * (double)t.silent / (double)t.lines;
     m[FAILS] = 100 * (double)t.fail / (double)t.lines;
+    m[FALSE_PASS] = 100 * (double)t.wrong_pass / (double)t.lines;
     m[WIDTH] = width / (double)t.widths;
     m[LIMITS] = 100 * (double)limits.claims / (double)limits.lines;
     m[HELD] = 100 * (double)limits.covers / (double)limits.claims;
