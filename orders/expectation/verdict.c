@@ -423,7 +423,7 @@ static void judge_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
-    } else if (!(last > high))
+    } else if (first < last && last <= high)
         conclude(c, BR_INCONCLUSIVE,
                  "the orders from size to size rise to %.2f: finer grids would show "
                  "whether they stop there",

@@ -56,8 +56,8 @@ BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES] = {
     ROW(BR_LAW_LOGARITHM, -1, 1.5, 30, 0.003, 0, "the same: errors below the power"),
     ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0, "the error of the reference, or of a tolerance"),
     ROW(BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0, "the same in a norm of squares"),
-    ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.005, 1, "the same with a next term h"),
-    ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.005, 2, "the same with a next term h^2"),
+    ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.001, 1, "the same with a next term h"),
+    ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.001, 2, "the same with a next term h^2"),
     ROW(BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0, "a reference that is itself computed"),
     ROW(BR_LAW_OFFSET, 0, 0.01, 8, 0.005, 1, "the same with a next term"),
 };

@@ -58,7 +58,7 @@ static int by_mean(const void *a, const void *b)
 
 void br_mixture_thin(struct br_mixture *all)
 {
-    static const double share = 1e-3;
+    static const double share = 5e-4;
     size_t large = 0, count;
     while (large < all->count && all->part[large].weight >= share)
         large++;
@@ -122,7 +122,7 @@ struct quantile {
  * a bisection. */
 static void find_quantiles(const struct br_mixture *all, struct quantile *q, size_t count)
 {
-    static const double enough = 1e-5;
+    static const double enough = 5e-5;
     double low = INFINITY, high = -INFINITY, least = INFINITY;
     for (size_t i = 0; i < all->count; i++) {
         const struct br_law_part *p = &all->part[i];

@@ -106,7 +106,8 @@ static double least_scatter(double change)
 void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct br_law_part *of,
                    double least)
 {
-    enum { FEW = 4 }; /* of two differences: as if five had shown their scatter */
+    enum { FEW = 4 };                  /* of two differences: as if five had shown their scatter */
+    static const double chance = 2e-2; /* through three rows some parameter leads exactly */
     double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
     double yy = s->yy - s->y * s->y / s->w, qq = 1;
     const bool curved = s->unit > 0;
@@ -121,8 +122,9 @@ void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct
     const double freedom = (double)s->rows - 2 - curved + s->freedom;
     if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
+    const bool by_chance = freedom < 2 && of->law != BR_LAW_POWER;
     const double seen =
-        fmax(all->within_cell,
+        fmax(fmax(all->within_cell, by_chance ? chance : 0),
              curved && of->law != BR_LAW_KINK ? br_priors.least_curved : br_priors.least_scatter);
     if (s->parted && !(left <= (pow(br_priors.least_curved, 2) + s->v / s->w) * freedom))
         return; /* exact errors alone show two lines */
@@ -234,7 +236,7 @@ void br_window_all(struct br_mixture *all, const struct br_rows *r, struct br_la
 /* The sums are those of the changes; the line goes through the last row. */
 void br_window_drifts(struct br_mixture *all, const struct br_rows *r)
 {
-    enum { LEAST = 4 };
+    enum { LEAST = 5 };
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     for (size_t i = 0; i < n; i++)
         if (r->log_given[i] < 0 || r->log_given[i] > 0)
