@@ -45,13 +45,20 @@ static void prepare_share(void *self, double most)
     share->whole->preparing(share->whole->self, most);
 }
 
+static void warn_of_share(void *self, const char *what)
+{
+    const struct br_observer_share *share = self;
+    share->whole->warn(share->whole->self, what);
+}
+
 struct br_observer br_observer_of(struct br_observer_share *share)
 {
     const struct br_observer none = {0}, *whole = share->whole ? share->whole : &none;
     return (struct br_observer){.progress = whole->progress ? report_share : NULL,
                                 .stop = stop_share,
                                 .self = share,
-                                .preparing = whole->preparing ? prepare_share : NULL};
+                                .preparing = whole->preparing ? prepare_share : NULL,
+                                .warn = whole->warn ? warn_of_share : NULL};
 }
 
 /* ---- threads ---- */

@@ -3,45 +3,22 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/quote.h"
 
-static const double usual_slice = 2, usual_reference = 0.1;
-
 enum {
     SUM = BR_SHA256_TEXT, /* of all that follows, in a line of its own */
     LARGEST = 1 << 26     /* bytes */
 };
 
-enum br_status br_kept_open(struct br_kept *k, const char *folder, bool take, const char *machine,
-                            struct br_error *err)
-{
-    long long size;
-    const int self = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
-    const bool read = self >= 0 && br_sha256_file(self, &size, k->program);
-    if (self >= 0)
-        close(self);
-    if (!read)
-        return br_fail(err, BR_IO, "the program cannot be read, so that no work can be kept: %s",
-                       strerror(errno));
-    snprintf(k->folder, sizeof k->folder, "%.1000s/.kept", folder);
-    k->take = take;
-    k->slice = usual_slice;
-    k->most_reference = usual_reference;
-    k->machine = machine;
-    return BR_OK;
-}
-
 void br_kept_begin(const struct br_kept *k, const char *work, struct br_statement *text)
 {
     br_statement_begin(text);
-    br_state(text, "beamrate-kept", "%s", "3");
-    br_state(text, "program", "%s", k->program);
-    br_state(text, "machine", "%s", k->machine ? k->machine : "");
+    br_state(text, "beamrate-kept", "%s", "4");
+    (void)k;
     br_state(text, "work", "%s", work);
 }
 
@@ -93,7 +70,7 @@ static struct br_record open_record(const char *file, size_t size, const char *t
     };
 }
 
-bool br_kept_take(struct br_kept *k, const char *text, br_record_pass *pass_all, void *self)
+bool br_kept_take(const struct br_kept *k, const char *text, br_record_pass *pass_all, void *self)
 {
     char path[1300];
     if (!k || !text || !*k->folder || !k->take)
@@ -107,10 +84,7 @@ bool br_kept_take(struct br_kept *k, const char *text, br_record_pass *pass_all,
     if (!record.wrong)
         pass_all(&record, self);
     free(file);
-    if (!record.wrong && record.left == 0)
-        return true;
-    atomic_fetch_add(&k->bad, 1);
-    return false;
+    return !record.wrong && record.left == 0;
 }
 
 /* Does not wait for the disk: an entry that a crash leaves incomplete is found by its sum. */
@@ -139,7 +113,7 @@ static bool put_in_place(const struct br_kept *k, const char *text, const char *
     return false;
 }
 
-bool br_kept_put(struct br_kept *k, const char *text, br_record_pass *pass_all, void *self)
+bool br_kept_put(const struct br_kept *k, const char *text, br_record_pass *pass_all, void *self)
 {
     char *bytes = NULL;
     size_t size;
@@ -154,7 +128,5 @@ bool br_kept_put(struct br_kept *k, const char *text, br_record_pass *pass_all, 
         kept = fclose(record.to) == 0 && (record.wrong || put_in_place(k, text, bytes, size));
     }
     free(bytes);
-    if (!kept)
-        atomic_fetch_add(&k->lost, 1);
     return kept;
 }

@@ -12,6 +12,7 @@ struct br_observer {
     void *self;
     /* reports the share of its work limit that an exact reference has used so far; may be NULL */
     void (*preparing)(void *self, double share);
+    void (*warn)(void *self, const char *what); /* of what is left behind; may be NULL */
 };
 
 /* Whether the observer asks to stop; false for NULL. */

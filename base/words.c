@@ -241,13 +241,26 @@ enum br_status br_read_counts(const char *option, const char *text, size_t **val
 
 /* ---- lists of names ---- */
 
+const char *br_list_quoted(const char **at)
+{
+    const char *end = **at == '"' ? strchr(*at + 1, '"') : NULL;
+    *at += end != NULL;
+    return end ? end + 1 : NULL;
+}
+
 const char *br_list_next(const char *list, const char **name, size_t *length)
 {
-    *name = list + strspn(list, " ");
-    const char *end = *name + strcspn(*name, ",");
-    *length = (size_t)(end - *name);
-    while (*length && (*name)[*length - 1] == ' ')
+    const char *inside = list += strspn(list, " "), *quoted = br_list_quoted(&inside);
+    const char *end = quoted ? quoted : list;
+    end += strcspn(end, ",");
+    *name = list;
+    *length = (size_t)(end - list);
+    while (*length && list[*length - 1] == ' ')
         --*length;
+    if (quoted && *length == (size_t)(quoted - list)) { /* nothing follows it */
+        *name = inside;
+        *length -= 2;
+    }
     return *end ? end + 1 : NULL;
 }
 

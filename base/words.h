@@ -44,10 +44,12 @@ __attribute__((format(printf, 3, 4))) char *br_append(char *text, size_t size, c
 /* ---- similar names ---- */
 
 /* The name that differs from the word in the fewest letters; a capital in place of a small letter
- * counts as a quarter of one. Of several that are as near it is the first. NULL: none is similar. */
+ * counts as a quarter of one. Of several that are as near it is the first. NULL: none is similar.
+ */
 const char *br_nearest(const char *word, const char *const *names, size_t count);
 
-/* How the refusal of an unknown word ends: "; did you mean 'x'?", or nothing; returns text (out). */
+/* How the refusal of an unknown word ends: "; did you mean 'x'?", or nothing; returns text (out).
+ */
 enum { BR_SUGGESTION = 112 };
 char *br_suggestion(const char *word, const char *const *names, size_t count,
                     char text[BR_SUGGESTION]);
@@ -58,8 +60,12 @@ char *br_expected(const char *word, const char *const *names, size_t count, char
 
 /* ---- lists of names ---- */
 
+/* A name in double quotes, at *at: moves *at behind the first quote, returns what follows the
+ * second one. NULL: there is none. */
+const char *br_list_quoted(const char **at);
+
 /* The first name of a list "a, b" (out; without the blanks around it, and without a zero at its
- * end); returns the rest of the list, or NULL. */
+ * end); returns the rest of the list, or NULL. In double quotes a name may have commas: "a,b". */
 const char *br_list_next(const char *list, const char **name, size_t *length);
 
 /* Whether a name is in a list (NULL: an empty one). */

@@ -79,9 +79,9 @@ static const struct br_option rows[] = {
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,
-     "run the commands of the study files, and remember this permission", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
-     .more = "Needed once for each study file with a command, and again when it has changed."},
+     "run the commands of the study files, and read their tables in any folder", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     .more = "Needed each time: a study file with a command is a program. Read it before."},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_JSON, "json", 0, "FILE", "all results, for programs and for --compare", NULL,
@@ -104,8 +104,8 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not exist."},
 
     /* what is kept */
-    {BR_OPT_RESUME, "resume", 0, NULL, "use finished work that is kept in the folder of --out",
-     NULL, BR_TAKES_FLAG, .commands = BR_FOR_ORDERS,
+    {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are kept", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_ORDERS,
      .more = "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
              "or in orders-kept without --out. A run is used again if its words, its program and "
              "the files that its words name are the same. Other files that the program reads or "
@@ -115,7 +115,8 @@ static const struct br_option rows[] = {
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
      BR_TAKES_DIR,
      .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
-     OWN({BR_FOR_TABLES | BR_FOR_STUDY, .standard = "results", .help = folder},
+     OWN({BR_FOR_TABLES, .standard = "results", .help = folder},
+         {BR_FOR_STUDY, .standard = "study", .help = folder},
          {BR_FOR_TRADE, .standard = "trade", .help = folder},
          {BR_FOR_EXTREMES, .standard = "extremes", .help = folder},
          {BR_FOR_FIGURES, .standard = "figures", .help = folder})},

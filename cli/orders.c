@@ -213,7 +213,7 @@ static enum br_status build_report(struct run *r, struct br_document *d, struct 
     br_report_orders(&r->study.orders, growth, caption, d);
     if (br_output_is_open(&r->session->output))
         br_session_draw(r->session, d, br_orders_draw(&r->study.orders, caption),
-                        "Errors, or differences of values, over sizes");
+                        "Errors, or values, over the size");
     br_put_provenance(d, &provenance);
     return BR_OK;
 }

@@ -1,9 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results, put in place whole or not at all: a set of files in a folder, or one file.
  *
- * A program that writes a set locks the file .beamrate-lock of its folder, so a folder has one
- * writer at a time. It writes its files in the hidden folder .beamrate-new, and commit.h puts them
- * in place. The lock ends with the program, however that ends, and its file is removed with it. */
+ * A folder holds one set. Its manifest, .beamrate-set, names the files of the set. A program that
+ * writes a set locks the file .beamrate-lock of the folder, and writes in the hidden folder
+ * .beamrate-new inside. Then:
+ *
+ *   1. All new files go to the disk.        The folder has the old set; the hidden one is rubbish.
+ *   2. The new manifest is renamed into     This decides. From now on the new set is whole in the
+ *      the hidden folder.                   two folders together, and every later step can be done
+ *                                           again: the hidden folder has what is still to be moved,
+ *                                           and the old manifest what is to be removed.
+ *   3. The new files are renamed into the   Each new file is in one of the two folders.
+ *      folder.
+ *   4. Old files that the new manifest      The folder has the new files, and no others of ours.
+ *      lacks are removed.
+ *   5. The new manifest is renamed over     The folder has the new set; the hidden one is rubbish.
+ *      the old one.
+ *
+ * A program that is ended before step 2 leaves the old set. After one that is ended later, whoever
+ * opens the folder next does steps 3 to 5 again. So: a hidden folder with a manifest is a commit to
+ * be finished; without one, the folder's own manifest is true.
+ *
+ * Files that no manifest names belong to somebody: they are neither replaced nor removed. */
 #ifndef BR_CLI_OUTPUT_H
 #define BR_CLI_OUTPUT_H
 
@@ -12,21 +30,21 @@
 #include <sys/types.h>
 
 #include "base/status.h"
-#include "cli/commit.h"
 
 /* Begins with zeros. */
 struct br_output {
     char folder[1024];      /* for the results */
     char staging[1400];     /* where they are written first; "": not open */
-    int parent, descriptor; /* the open folder and hidden folder */
-    int lock;               /* the open file that is locked */
+    int parent, descriptor; /* the open folder and hidden folder; -1: not open */
+    int lock;               /* the open file that is locked; -1: not open */
     size_t made;            /* as of br_make_folders */
+    size_t removed;         /* files of the old set that the new one lacks */
 };
 
 /* Makes the folder (and its parents) and the hidden one; finishes or removes what an ended program
  * left behind. Call it before a long computation. Fails with BR_BAD_INPUT if the folder cannot be
- * written or is in use, if its list is not ours, or if somebody's file is in the way of a commit
- * that has to be finished; with BR_IO where the disk fails. */
+ * written or is in use, if its manifest is not ours, or if somebody's file is in the way of a
+ * commit that has to be finished; with BR_IO where the disk fails. */
 enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
 
 static inline bool br_output_is_open(const struct br_output *output)
@@ -42,19 +60,18 @@ enum br_status br_output_file(const struct br_output *output, const char *name, 
 /* Closes a written file: fails with BR_IO if any write did (a full disk). */
 enum br_status br_output_close(FILE *file, const char *name, struct br_error *err);
 
-/* Puts the set in place of the old one. Where a file in the way is not as an earlier run wrote it
- * (a scene, a person's own), the new set is put into a folder beside it, set-1 or the next number,
- * and the call fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a
- * signal. */
+/* Puts the set in place of the old one. Where somebody's file is in the way, the new set is put
+ * into a folder beside it, set-1 or the next number, and the call fails with BR_IO, as it does
+ * where the disk fails. Fails with BR_INTERRUPTED after a signal. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
 /* Removes what has not been put in place, and the folder if br_output_open made it; does nothing
  * after a commit. */
 void br_output_discard(struct br_output *output);
 
-/* The wanted permissions without those that the umask takes away. No other thread may make files
- * meanwhile. */
-mode_t br_new_permissions(mode_t wanted);
+/* Makes every missing folder of the path. *made (out): the length of the path of the first one that
+ * was missing; 0: none was. False: errno says why, and none is left. */
+bool br_make_folders(const char *path, mode_t last, size_t *made);
 
 /* ---- one file ---- */
 
@@ -65,7 +82,6 @@ struct br_whole_file {
     char *place;      /* the path with symbolic links followed; owned; NULL: standard output, a
                          device, or a pipe without a name */
     bool renamed;     /* else it is no plain file, and is written directly */
-    int folder;       /* open, if `renamed` */
     FILE *file;       /* to be written */
     char *text;       /* size bytes: what was written; owned */
     size_t size;
@@ -89,25 +105,8 @@ enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error
 /* Releases it; what has not been put in its place is lost. */
 void br_whole_file_discard(struct br_whole_file *whole);
 
-/* ---- shared with commit.c ---- */
-
-/* Writes a file of an open folder, whole or not at all: under the hidden name .beamrate-part, which
- * is then renamed. False: errno says why. */
-bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, size_t count);
-
-/* Opens and locks a file of an open folder; makes it if it is missing. Where the file system has no
- * locks it is only opened. -1 with errno; EWOULDBLOCK: another program has the lock; EINTR: a
- * signal came while it waited. */
-int br_lock_file(int folder, const char *name, bool wait);
-
-/* Waits until a folder's names are on the disk. False: errno says why. */
-bool br_sync_folder(int folder);
-
-/* Closes a descriptor, unless it is -1; errno is kept. */
-void br_close(int descriptor);
-
-/* Makes every missing folder of the path. *made (out): the length of the path of the first one that
- * was missing; 0: none was. False: errno says why, and none is left. */
-bool br_make_folders(const char *path, mode_t last, size_t *made);
+/* Writes a file, whole or not at all; its path has a folder. mode 0: the permissions of a new file.
+ * False: errno says why. */
+bool br_put_whole(const char *path, mode_t mode, const char *bytes, size_t count);
 
 #endif

@@ -40,6 +40,7 @@ void br_signals_install(void)
         sigaction(SIGHUP, &action, NULL);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGCHLD, SIG_DFL); /* else the kernel tells no exit codes of programs */
 }
 
 bool br_signals_caught(void)
@@ -150,6 +151,15 @@ static void show_waiting(void *self, double share)
     pthread_mutex_unlock(&lock);
 }
 
+static void warn(void *self, const char *what)
+{
+    (void)self;
+    pthread_mutex_lock(&lock);
+    fprintf(stderr, "%sbeamrate: warning: %s\n",
+            progress.terminal && !progress.quiet ? "\r\033[K" : "", what);
+    pthread_mutex_unlock(&lock);
+}
+
 static bool stop(void *self)
 {
     (void)self;
@@ -164,8 +174,8 @@ void br_progress_part(size_t i, size_t parts)
 
 const struct br_observer *br_progress_start(const char *what, bool quiet)
 {
-    static const struct br_observer shown = {show, stop, NULL, show_waiting},
-                                    silent = {.stop = stop};
+    static const struct br_observer shown = {show, stop, NULL, show_waiting, warn},
+                                    silent = {.stop = stop, .warn = warn};
     const bool terminal = isatty(STDERR_FILENO) == 1;
     const double t = br_seconds();
     progress =

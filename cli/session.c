@@ -14,7 +14,6 @@ struct br_session br_session_begin(const struct br_options *options)
     return (struct br_session){
         .out = br_option_text(options, BR_OPT_OUT),
         .set = br_option_text(options, BR_OPT_SET),
-        .resume = br_option_given(options, BR_OPT_RESUME),
         .plots = !br_option_given(options, BR_OPT_NO_PLOTS),
         .format = options->number[BR_OPT_FORMAT],
         .formats = options->count[BR_OPT_FORMAT],
@@ -36,40 +35,6 @@ enum br_status br_session_alone(struct br_error *err)
 enum br_status br_session_open(struct br_session *s, struct br_error *err)
 {
     return s->writes && s->out ? br_output_open(&s->output, s->out, err) : BR_OK;
-}
-
-enum br_status br_session_keep(const struct br_session *s, struct br_kept *kept,
-                               struct br_error *err)
-{
-    struct br_provenance here;
-    *kept = (struct br_kept){0};
-    if (!br_output_is_open(&s->output) || br_processes() > 1)
-        return s->resume
-                   ? br_fail(err, BR_BAD_INPUT, "--resume: expected %s",
-                             br_processes() > 1 ? "one rank: several ranks keep no work"
-                                                : "--out, the folder of the work that is kept")
-                   : BR_OK;
-    br_provenance_fill(&here, 0);
-    return br_kept_open(kept, s->output.folder, s->resume, here.machine, err);
-}
-
-void br_session_report_kept(const struct br_session *s, const struct br_kept *k)
-{
-    const size_t taken = atomic_load(&k->taken), bad = atomic_load(&k->bad);
-    const size_t lost = atomic_load(&k->lost);
-    if (taken && !s->quiet)
-        fprintf(stderr, "beamrate: finished cells, trials and cases taken from %s: %zu\n",
-                k->folder, taken);
-    if (lost)
-        fprintf(
-            stderr,
-            "beamrate: warning: finished cells, trials and cases that could not be kept in %s: %zu\n",
-            k->folder, lost);
-    if (bad)
-        fprintf(stderr,
-                "beamrate: warning: %zu entries in %s are damaged or do not match their names: "
-                "they were not used\n",
-                bad, k->folder);
 }
 
 void br_session_put_set(const struct br_session *s, struct br_document *report)
@@ -183,7 +148,7 @@ static enum br_status write_file(const struct br_session *s, const struct br_doc
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err)
 {
-    char name[600] = BR_PAGE;
+    char name[600] = "report.html";
     FILE *file;
     const bool page = f == &br_document_html, main = !table || table->flags & BR_MAIN;
     if (!page)
@@ -245,8 +210,8 @@ enum br_status br_session_write(struct br_session *s, const struct br_document_f
 enum br_status br_session_finish(struct br_session *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0; i < s->documents && !s->quiet && !status; i++) {
-        status = br_document_show(stdout, &s->document[i], err);
+    if (!s->quiet && s->documents) {
+        status = br_document_show(stdout, s->document, s->documents, err);
         putchar('\n');
     }
     fflush(stdout); /* before anything can fail; main checks standard output at the end */
@@ -256,7 +221,10 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
     if (!status && !s->quiet) {
         fputs("Written to ", stdout);
         br_quote(stdout, &br_for_text, s->output.folder);
-        fputs("/\n", stdout);
+        fputc('/', stdout);
+        if (s->output.removed)
+            printf("; removed there: %zu files of an earlier run", s->output.removed);
+        fputc('\n', stdout);
     }
     return status;
 }

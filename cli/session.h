@@ -5,7 +5,6 @@
 #ifndef BR_CLI_SESSION_H
 #define BR_CLI_SESSION_H
 
-#include "base/kept.h"
 #include "cli/option.h"
 #include "cli/output.h"
 #include "plots/pictures.h"
@@ -15,7 +14,7 @@
 struct br_session {
     const char *out;      /* the folder of --out; NULL: nothing is written */
     const char *set;      /* of --set: KEY=VALUE, a line each; NULL: not given */
-    bool resume, plots;   /* --resume; without --no-plots */
+    bool plots;           /* without --no-plots */
     const double *format; /* formats of them: rows of br_document_formats, of --format; 0: all are
                              written. Borrowed from the options */
     size_t formats;
@@ -41,15 +40,6 @@ enum br_status br_session_alone(struct br_error *err);
 
 /* Makes the folder of --out, so call it before a long computation. Fails as br_output_open. */
 enum br_status br_session_open(struct br_session *session, struct br_error *err);
-
-/* Opens the store of finished work (out) in the folder of --out, which is open. With --resume,
- * stored work is used. Without a folder, or on several ranks, nothing is stored, and --resume is
- * refused (BR_BAD_INPUT). Fails with BR_IO, too. */
-enum br_status br_session_keep(const struct br_session *session, struct br_kept *kept,
-                               struct br_error *err);
-
-/* Prints how much stored work was used, and warns of stored files that are damaged. */
-void br_session_report_kept(const struct br_session *session, const struct br_kept *kept);
 
 /* Says what --set has set, in a report without the title of a scene, which says it, too. */
 void br_session_put_set(const struct br_session *session, struct br_document *report);

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "base/quote.h"
-#include "base/sha256.h"
 #include "cli/provenance.h"
 
 /* Opens, for each format, the file that its option names. */
@@ -59,7 +58,8 @@ static enum br_status check_paths(const struct br_verdicts *v, const char *basel
     return BR_OK;
 }
 
-/* A baseline that will be written may be missing, or be of another problem. */
+/* A baseline that will be written may be missing, or be of another problem; what is no baseline is
+ * not replaced. */
 static enum br_status read_baseline(struct br_verdicts *v, const struct br_options *options,
                                     const struct br_check *checks, size_t count,
                                     struct br_error *err)
@@ -73,8 +73,15 @@ static enum br_status read_baseline(struct br_verdicts *v, const struct br_optio
         v->compare = NULL;
     if (!v->compare)
         return BR_OK;
-    if (!br_check_read_json(v->compare, &v->old, err) &&
-        !br_compare_check(checks, count, &v->old, err))
+    if (br_check_read_json(v->compare, &v->old, err)) {
+        const struct br_error why = *err;
+        return why.status != BR_BAD_INPUT || !update
+                   ? why.status
+                   : br_fail(err, BR_BAD_INPUT,
+                             "%.400s; --update-baseline replaces no other file than a baseline",
+                             why.message);
+    }
+    if (!br_compare_check(checks, count, &v->old, err))
         return BR_OK;
     if (err->status != BR_BAD_INPUT || !update)
         return err->status;
@@ -183,66 +190,32 @@ void br_study_file_clear(struct br_study_file *f)
     br_orders_request_clear(&f->request);
 }
 
-/* The path (out) of the file with the sums of trusted study files, whose commands may be run. make:
- * make its folder. false: there is no path. */
-static bool find_trust_file(char path[4096], bool make)
+/* Says what to type: the command line with --trust, before a "--". */
+static enum br_status refuse_untrusted(const char *path, const char *what, const char *named,
+                                       struct br_error *err)
 {
-    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
-    char folder[4000];
-    if (state && *state == '/')
-        snprintf(folder, sizeof folder, "%.3900s/beamrate", state);
-    else if (home && *home == '/')
-        snprintf(folder, sizeof folder, "%.3900s/.local/state/beamrate", home);
-    else
-        return false;
-    snprintf(path, 4096, "%s/trusted", folder);
-    size_t made;
-    return !make || br_make_folders(folder, 0700, &made);
+    const char *line = br_command_line(), *end = strstr(line, " -- ");
+    const int length = (int)(end ? end - line : (long)strlen(line));
+    char shown[300];
+    br_quoted(shown, sizeof shown, &br_for_text, named);
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: it %s '%s', which needs --trust each time: read the file, then type: %.*s "
+                   "--trust%.100s",
+                   path, what, shown, length < 400 ? length : 0, line, end ? end : "");
 }
 
-static bool is_trusted(const char *sum)
-{
-    char path[4096], line[128];
-    FILE *file = find_trust_file(path, false) ? fopen(path, "re") : NULL;
-    bool found = false;
-    while (file && !found && fgets(line, sizeof line, file))
-        found = strncmp(line, sum, strlen(sum)) == 0;
-    if (file)
-        fclose(file);
-    return found;
-}
-
-static void remember(const char *sum)
-{
-    char path[4096];
-    FILE *file = find_trust_file(path, true) ? fopen(path, "ae") : NULL;
-    if (!file || fprintf(file, "%s\n", sum) < 0)
-        fprintf(stderr, "beamrate: warning: the permission of the study file could not be kept\n");
-    if (file)
-        fclose(file);
-}
-
-static enum br_status check_trust(const struct br_orders_request *request, const char *text,
+static enum br_status check_trust(const struct br_orders_request *r,
                                   const struct br_options *options, struct br_error *err)
 {
-    struct br_error inner = {0};
-    char sum[BR_SHA256_TEXT], command[400], path[400];
-    if (br_command_identify(request, text, sum, &inner))
-        return br_fail(err, inner.status, "%s: run: %.900s", request->path, inner.message);
-    br_quoted(command, sizeof command, &br_for_text, request->command);
-    const bool trusted = is_trusted(sum);
-    if (!trusted && !br_option_given(options, BR_OPT_TRUST))
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s: it runs the command '%s', and is not trusted yet: read it, then give "
-                       "--trust once (again if the file, its place, the program or a file that the "
-                       "command names changes)",
-                       request->path, command);
-    if (!trusted)
-        remember(sum);
-    if (br_option_given(options, BR_OPT_QUIET))
-        return BR_OK;
-    fprintf(stderr, "beamrate: %s runs %s\n",
-            br_quoted(path, sizeof path, &br_for_text, request->path), command);
+    char command[400], path[400];
+    if (!br_option_given(options, BR_OPT_TRUST) && r->command)
+        return refuse_untrusted(r->path, "runs the command", r->command, err);
+    if (!br_option_given(options, BR_OPT_TRUST) && r->table_is_outside)
+        return refuse_untrusted(r->path, "reads a table outside its folder,", r->table_path, err);
+    if (r->command && !br_option_given(options, BR_OPT_QUIET))
+        fprintf(stderr, "beamrate: %s runs %s\n",
+                br_quoted(path, sizeof path, &br_for_text, r->path),
+                br_quoted(command, sizeof command, &br_for_text, r->command));
     return BR_OK;
 }
 
@@ -252,10 +225,8 @@ enum br_status br_study_file_read(const char *path, const char *text,
 {
     if (br_orders_request_read(path, text, &f->request, err))
         return err->status;
-    return f->request.command && !br_session_alone(err)
-               ? check_trust(&f->request, text, options, err)
-           : f->request.command ? err->status
-                                : BR_OK;
+    return f->request.command && br_session_alone(err) ? err->status
+                                                       : check_trust(&f->request, options, err);
 }
 
 struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)
@@ -263,8 +234,10 @@ struct br_check br_study_file_check(struct br_study_file *f, const struct br_opt
     struct br_orders_request *r = &f->request;
     r->jobs = (int)br_option_number(o, BR_OPT_THREADS, 0);
     r->anew = !br_option_given(o, BR_OPT_RESUME);
+    const bool read = !r->command && strcmp(r->path, "standard input") != 0;
     struct br_check check = {.of_program = true,
                              .path = r->path,
+                             .no_file = !read && !r->folder,
                              .name = r->title     ? r->title
                                      : r->command ? r->command
                                                   : r->path};

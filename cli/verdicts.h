@@ -57,8 +57,8 @@ struct br_study_file {
 void br_study_file_clear(struct br_study_file *file);
 
 /* Reads a study file's text. One that has a command is refused (BR_BAD_INPUT) among several ranks,
- * and, with the command, unless --trust is given, or was given earlier for the same file and
- * program (br_command_identify). Clear it even then. */
+ * and, with the command, unless --trust is given; and so is one with a table outside its folder.
+ * Clear it even then. */
 enum br_status br_study_file_read(const char *path, const char *text,
                                   const struct br_options *options, struct br_study_file *file,
                                   struct br_error *err);

@@ -31,14 +31,13 @@ static char *place_of(const char *path)
 }
 
 /* The folder must take a new file, and an old one must not be protected. */
-static bool can_be_replaced(struct br_whole_file *w, bool there)
+static bool can_be_replaced(const char *place, bool there)
 {
-    char *name = strrchr(w->place, '/');
-    *name = '\0';
-    w->folder = open(name == w->place ? "/" : w->place, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    *name = '/';
-    return w->folder >= 0 && faccessat(w->folder, ".", W_OK, 0) == 0 &&
-           (!there || access(w->place, W_OK) == 0);
+    char *copy = strdup(place);
+    const bool can =
+        copy && access(dirname(copy), W_OK) == 0 && (!there || access(place, W_OK) == 0);
+    free(copy);
+    return can;
 }
 
 /* Opens a device or a pipe. A pipe must get a reader within some seconds. NULL with errno. */
@@ -73,7 +72,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     }
     w->place = there && S_ISCHR(old.st_mode) ? NULL : place_of(path);
     w->renamed = w->place && (!there || S_ISREG(old.st_mode));
-    if (w->renamed && can_be_replaced(w, there))
+    if (w->renamed && can_be_replaced(w->place, there))
         w->file = br_text_open(&w->text, &w->size);
     else if (there && !w->renamed)
         w->file = open_special(path); /* a pipe or a terminal is not renamed; a folder fails */
@@ -104,40 +103,36 @@ bool br_whole_file_meets(const struct br_whole_file *w, const char *path)
     return meets;
 }
 
-mode_t br_new_permissions(mode_t wanted)
+/* POSIX has no call that only reads the mask. */
+static mode_t new_permissions(void)
 {
-    const mode_t mask = umask(0); /* POSIX has no call that only reads it */
+    const mode_t mask = umask(0);
     umask(mask);
-    return wanted & ~mask;
+    return 0666 & ~mask;
 }
 
-/* Writes all bytes, and waits until they are on the disk. */
-static bool write_out(int file, const char *bytes, size_t count)
+bool br_put_whole(const char *path, mode_t mode, const char *bytes, size_t count)
 {
-    while (count) {
-        const ssize_t put = write(file, bytes, count);
-        if (put < 0 && errno != EINTR)
-            return false;
-        bytes += put > 0 ? put : 0;
-        count -= put > 0 ? (size_t)put : 0;
-    }
-    return fsync(file) == 0;
-}
-
-/* What a program that was killed left under the hidden name is written anew. */
-bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, size_t count)
-{
-    static const char hidden[] = ".beamrate-part";
-    const int file = br_lock_file(folder, hidden, true);
-    if (file < 0)
+    char *part = NULL;
+    const int name = (int)(strrchr(path, '/') - path);
+    if (asprintf(&part, "%.*s/.beamrate-XXXXXX", name, path) < 0)
         return false;
-    (void)!fchmod(file, mode); /* some file systems have no permissions */
-    const bool put = ftruncate(file, 0) == 0 && write_out(file, bytes, count) &&
-                     renameat(folder, hidden, folder, name) == 0;
+    const int made = mkostemp(part, O_CLOEXEC);
+    FILE *file = made >= 0 ? fdopen(made, "w") : NULL;
+    bool put =
+        file && fwrite(bytes, 1, count, file) == count && fflush(file) == 0 && fsync(made) == 0;
+    if (put) {
+        (void)!fchmod(made, mode ? mode : new_permissions()); /* some file systems have none */
+        put = renameat(AT_FDCWD, part, AT_FDCWD, path) == 0;
+    }
     const int reason = errno;
-    if (!put)
-        unlinkat(folder, hidden, 0);
-    close(file);
+    if (!put && made >= 0)
+        unlink(part);
+    if (file)
+        fclose(file);
+    else if (made >= 0)
+        close(made);
+    free(part);
     errno = reason;
     return put;
 }
@@ -155,8 +150,8 @@ enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *er
                           : br_fail(err, BR_IO, "%s could not be written whole", w->path);
     if (!w->renamed)
         return BR_OK;
-    const mode_t mode = stat(w->place, &old) == 0 ? old.st_mode & 07777 : br_new_permissions(0666);
-    return br_put_whole(w->folder, strrchr(w->place, '/') + 1, mode, w->text, w->size)
+    const mode_t mode = stat(w->place, &old) == 0 ? old.st_mode & 07777 : 0;
+    return br_put_whole(w->place, mode, w->text, w->size)
                ? BR_OK
                : br_fail(err, BR_IO, "%s could not be written whole: %s", w->path, strerror(errno));
 }
@@ -165,8 +160,6 @@ void br_whole_file_discard(struct br_whole_file *w)
 {
     if (w->file && w->file != stdout)
         fclose(w->file);
-    if (w->renamed)
-        br_close(w->folder);
     free(w->text);
     free(w->place);
     *w = (struct br_whole_file){.path = NULL};

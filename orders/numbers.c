@@ -15,6 +15,19 @@ void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_r
              (by_list ? row->listed : row->given)[axis]);
 }
 
+enum { CELL = 2 * 64 + 2 }; /* bytes of a cell's name */
+
+/* "n = 8, k = 0.1" */
+static void name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                      char text[CELL])
+{
+    char size[BR_AXES][64] = {""};
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (numbers->column[axis])
+            br_numbers_name(numbers, row, (enum br_axis)axis, size[axis]);
+    snprintf(text, CELL, "%s%s%s", size[0], *size[0] && *size[1] ? ", " : "", size[1]);
+}
+
 enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
                                     struct br_error *err)
 {
@@ -135,14 +148,14 @@ void br_numbers_sort(struct br_numbers *numbers)
     qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
 }
 
-enum { SOURCE = 400 };
+enum { SOURCE = 450 };
 
 /* The source of a row, for messages: "file:3", or the resolution of a run. */
 static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      const char *path, char text[SOURCE])
 {
-    char size[64];
-    br_numbers_name(numbers, row, numbers->column[0] ? BR_AXIS_SPACE : BR_AXIS_TIME, size);
+    char size[CELL];
+    name_cell(numbers, row, size);
     if (row->line)
         snprintf(text, SOURCE, "%.300s:%zu", path, row->line);
     else
@@ -162,8 +175,12 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
         const double given = row->failure && isnan(row->given[axis]) ? 1 : row->given[axis];
         if (column && !((given > 0 || ((column->is_power || column->is_degree) && given >= 0)) &&
                         isfinite(given)))
-            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
-                           column->name, given);
+            return isfinite(given)
+                       ? br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0",
+                                 source, column->name, given)
+                       : br_fail(err, BR_BAD_INPUT,
+                                 "%s: %s: found no finite number, expected a number above 0",
+                                 source, column->name);
         if (column && !(z >= 1 / largest && z <= largest)) /* so that ratios do not overflow */
             return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a size from %g to %g",
                            source, column->name, given, 1 / largest, largest);
@@ -260,10 +277,10 @@ enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br
             first = first ? first : &numbers->row[i];
             failed++;
         }
-    char size[64];
+    char size[CELL];
     if (!failed)
         return BR_OK;
-    br_numbers_name(numbers, first, numbers->column[0] ? BR_AXIS_SPACE : BR_AXIS_TIME, size);
+    name_cell(numbers, first, size);
     return br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s: %s", failed,
                    numbers->rows, size, first->failure);
 }

@@ -51,12 +51,13 @@ struct br_orders_request {
     double formal;          /* the order of theory for values; 0: nobody stated it */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
-    char *table;      /* text of a table; NULL: none */
-    char *table_path; /* of a table that a study file names; NULL: the table is in `path` */
-    /* The command that is run; NULL: none. Its words end and are quoted as in a shell: by blanks,
-     * '...', "..." and \; no other character is special. In a word, {n} is the resolution of the
-     * column n, and {{ is a brace. A program's path with a slash, and words that name a file, are
-     * relative to `folder`; the program itself runs in another one. */
+    char *table;           /* text of a table; NULL: none */
+    char *table_path;      /* of a table that a study file names; NULL: the table is in `path` */
+    bool table_is_outside; /* of the study file's folder: messages would quote a file of anybody */
+    /* The command that is run; NULL: none. Its words are those of a shell, with quotes, ~ and
+     * $VARIABLES, but without patterns and commands. In a word, {n} is the resolution of the column
+     * n, and {{ is a brace. A program's path with a slash, and words that name a file, are relative
+     * to `folder`; the program itself runs in another one. */
     char *command;
     char *folder; /* of the study file; NULL: the current one */
     struct br_program_axis axis[BR_AXES];
@@ -143,19 +144,24 @@ enum br_status br_command_split(const struct br_orders_request *request,
                                 struct br_error *err);
 void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
-/* States the words, the program's bytes and those of the files that words name, also behind a "="
- * (of large files their size and time). before: the command at another resolution, or zeros: also
- * real paths are stated, and files of equal words are not read again; NULL: neither. Fails with
- * BR_IO. */
+/* States the words, and the bytes of the program and of the files that words name, also behind a
+ * "=" (of large files their size and time). Fails with BR_IO. */
 enum br_status br_command_state(struct br_statement *statement,
-                                const struct br_command_words *words,
-                                const struct br_command_words *before, struct br_error *err);
+                                const struct br_command_words *words, struct br_error *err);
 
-/* A hash (out) of what a study file runs: its text and real path, and at all resolutions the
- * command, with the bytes and the real paths of the program and of the files that words name. Fails
- * as br_command_split and br_command_state. */
-enum br_status br_command_identify(const struct br_orders_request *request, const char *text,
-                                   char sum[BR_SHA256_TEXT], struct br_error *err);
+/* Another number where one of these files was replaced or written. */
+uint64_t br_command_stamp(const struct br_command_words *words);
+
+/* Runs a command and reads the numbers of the row (out), or sets its failure. Fails as
+ * br_program_run. */
+enum br_status br_run_command(const struct br_orders_request *request,
+                              const struct br_command_words *words, struct br_numbers_row *row,
+                              struct br_error *err);
+
+/* A run without numbers: it failed for this reason (format). */
+__attribute__((format(printf, 4, 5))) enum br_status br_run_failed(
+    const struct br_orders_request *request, struct br_numbers_row *row, struct br_error *err,
+    const char *format, ...);
 
 /* BR_BAD_INPUT: the reading is not valid, so it finds no number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study of any program in a YAML file; each key has a row in `keys`. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -35,6 +36,15 @@ static enum br_status take_text(const struct entry *e)
     return *to ? BR_OK : br_no_memory(e->err, "the study");
 }
 
+static bool is_outside(const char *path, const char *folder)
+{
+    char file[PATH_MAX], in[PATH_MAX];
+    if (!realpath(path, file) || !realpath(folder, in))
+        return true;
+    const size_t length = strcmp(in, "/") == 0 ? 0 : strlen(in);
+    return strncmp(file, in, length) != 0 || file[length] != '/';
+}
+
 /* The path is relative to the folder of the study file. */
 static enum br_status take_table(const struct entry *e)
 {
@@ -45,6 +55,7 @@ static enum br_status take_table(const struct entry *e)
         *path = NULL;
         return br_no_memory(e->err, "the study");
     }
+    e->request->table_is_outside = is_outside(*path, e->request->folder);
     return br_text_load(*path, BR_LONGEST_TABLE, "table", &e->request->table, e->err);
 }
 
@@ -142,7 +153,7 @@ static enum br_status take_scalar(const struct br_yaml *r, const struct key *key
     const size_t line = br_yaml_line(value);
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_yaml_refuse(r, key->pairs ? br_yaml_line(name) : line, key->name, "expected %s",
-                               key->pairs ? "names with a text each" : "one text");
+                              key->pairs ? "names with a text each" : "one text");
     key->take(&(struct entry){request, key, r->path, br_yaml_text(name), br_yaml_text(value), line,
                               &inner});
     return br_yaml_pass_on(r, line, key->name, &inner);
@@ -181,7 +192,7 @@ static enum br_status take_entry(const struct br_yaml *r, const yaml_node_pair_t
                              : take_scalar(r, &keys[i], name, value, request);
     }
     return br_yaml_refuse(r, br_yaml_line(name), text, "unknown key, %s",
-                           br_expected(text, names, KEYS, expected));
+                          br_expected(text, names, KEYS, expected));
 }
 
 /* Refuses keys of runs in a study of a table. */
@@ -191,7 +202,7 @@ static enum br_status check_table(const struct br_yaml *r, const bool seen[KEYS]
     for (size_t i = 0; i < KEYS; i++)
         if (seen[i] && keys[i].of_runs)
             return br_yaml_refuse(r, br_yaml_line(root), keys[i].name,
-                                   "is given beside 'table', expected beside 'run' only");
+                                  "is given beside 'table', expected beside 'run' only");
     return BR_OK;
 }
 
@@ -208,12 +219,12 @@ static enum br_status take_study(const struct br_yaml *r, void *self)
         status = take_entry(r, p, seen, request);
     if (!status && !request->command == !request->table)
         status = br_yaml_refuse(r, br_yaml_line(root), "study",
-                                 "expected 'run' or 'table', one of the two");
+                                "expected 'run' or 'table', one of the two");
     if (!status && request->table)
         status = check_table(r, seen);
     if (!status && request->command && request->readings == 0)
         status = br_yaml_refuse(r, br_yaml_line(root), "read",
-                                 "missing, expected what is read of the output");
+                                "missing, expected what is read of the output");
     return status;
 }
 

@@ -108,34 +108,104 @@ void br_mark_add(struct br_figure *f, double x, const char *title)
     br_point_add(s, x, y.high, NULL);
 }
 
-size_t br_slope_put(double *slope, size_t count, double order)
+/* ---- triangles of orders, in shares of the panel: 0 to 1 along its logarithmic axes ---- */
+
+struct box {
+    double left, right, low, high;
+};
+
+/* log y of a series at x, both in shares of the panel; NaN: it is not there. */
+static double height_at(const struct br_panel *p, const struct br_series *s, double x)
 {
-    size_t at = 0;
-    while (at < count && slope[at] < order)
-        at++;
-    if (at < count && slope[at] == order)
-        return count;
-    memmove(slope + at + 1, slope + at, (count - at) * sizeof *slope);
-    slope[at] = order;
-    return count + 1;
+    const struct br_range across = br_extent(p, false), up = br_extent(p, true);
+    const double at = across.low * pow(across.high / across.low, x);
+    for (size_t i = 1; i < s->count; i++) {
+        const struct br_figure_point *a = &s->point[i - 1], *b = &s->point[i];
+        if (!br_is_drawn(p, a) || !br_is_drawn(p, b) || (a->x < at) == (b->x < at))
+            continue;
+        const double y = a->y * pow(b->y / a->y, log(at / a->x) / log(b->x / a->x));
+        return log(y / up.low) / log(up.high / up.low);
+    }
+    return NAN;
 }
 
-/* Adds lines that rise from one point. They take at most two fifths of the panel's height, and a
- * fifth of its width. */
-void br_slopes_add(struct br_figure *f, size_t count, const double *order)
+/* Whether a series comes near a triangle in the box; the triangle is below its own series, or
+ * above. own: at its sides; else also beside them, where the triangle has its number. */
+static bool is_near(const struct br_panel *p, const struct br_series *s, const struct box *b,
+                    bool below, bool own)
 {
-    const struct br_range x = br_extent(last_panel(f), false), y = br_extent(last_panel(f), true);
-    if (!(x.low < x.high && y.low < y.high) || !count)
-        return;
-    const double width =
-        fmin(0.2 * log(x.high / x.low), 0.4 * log(y.high / y.low) / order[count - 1]);
-    const double left = x.high * pow(x.high / x.low, 0.06);
-    for (size_t i = 0; i < count; i++) {
-        struct br_series *s = br_series_add(f, BR_PEN_GUIDE, "%s", "");
-        BR_SAY(s->end, "%g", order[i]);
-        br_point_add(s, left, y.low, NULL);
-        br_point_add(s, left * exp(width), y.low * exp(width * order[i]), NULL);
+    enum { LOOKS = 60 };
+    const double more = 0.03, number = 0.09;
+    const double from = b->left - (own ? 0 : below ? more : number);
+    const double to = b->right + (own ? 0 : below ? number : more);
+    for (int i = 0; i <= LOOKS; i++) {
+        const double x = from + (to - from) * i / LOOKS, y = height_at(p, s, x);
+        const double share = fmin(fmax((x - b->left) / (b->right - b->left), 0), 1);
+        const double side = b->low + (b->high - b->low) * share;
+        const bool over = y >= (below ? side : b->high) + more;
+        const bool under = y <= (below ? b->low : side) - more;
+        if (!isnan(y) && !over && !under)
+            return true;
     }
+    return false;
+}
+
+/* Whether a series, or its triangle, is in the way. */
+static bool is_taken(const struct br_panel *p, const struct br_series *own, const struct box *b,
+                     bool below)
+{
+    for (size_t i = 0; i < p->count; i++) {
+        const struct br_series *s = p->series[i];
+        if (s->pen != BR_PEN_AREA && is_near(p, s, b, below, strcmp(s->title, own->title) == 0))
+            return true;
+    }
+    return b->left < 0.01 || b->right > 0.99;
+}
+
+/* Draws the legs on the side of the box that is away from the series. */
+static void add_triangle(struct br_figure *f, const struct box *b, bool below, double order)
+{
+    const struct br_panel *p = last_panel(f);
+    const struct br_range x = br_extent(p, false), y = br_extent(p, true);
+    const double leg = below ? b->right : b->left, base = below ? b->low : b->high;
+    const double corners[][2] = {{leg, (b->low + b->high) / 2},
+                                 {leg, base},
+                                 {below ? b->left : b->right, base},
+                                 {leg, below ? b->high : b->low},
+                                 {leg, (b->low + b->high) / 2}};
+    struct br_series *s = br_series_add(f, BR_PEN_THIN, "%s", "");
+    BR_SAY(s->end, "%g", order);
+    s->end_left = !below;
+    for (size_t i = 0; i < sizeof corners / sizeof *corners; i++)
+        br_point_add(s, x.low * pow(x.high / x.low, corners[i][0]),
+                     y.low * pow(y.high / y.low, corners[i][1]), NULL);
+}
+
+bool br_slope_add(struct br_figure *f, const struct br_series *along, double order)
+{
+    static const double places[] = {0.62, 0.38, 0.74, 0.26, 0.5, 0.86, 0.14};
+    const struct br_panel *p = last_panel(f);
+    const struct br_range x = br_extent(p, false), y = br_extent(p, true);
+    char end[sizeof along->end];
+    BR_SAY(end, "%g", order);
+    for (size_t i = 0; i < p->count; i++)
+        if (p->series[i]->pen == BR_PEN_THIN && strcmp(p->series[i]->end, end) == 0)
+            return false;
+    if (!(x.low < x.high && y.low < y.high && order > 0))
+        return false;
+    const double steep = order * log(x.high / x.low) / log(y.high / y.low); /* high over wide */
+    const double width = fmin(0.13, 0.2 / steep), high = width * steep, away = 0.045;
+    for (size_t i = 0; i < 2 * sizeof places / sizeof *places && high > 0.025; i++) {
+        const bool below = i % 2 == 0;
+        const double middle = places[i / 2];
+        const double low = height_at(p, along, middle) - high / 2 + (below ? -away : away);
+        const struct box b = {middle - width / 2, middle + width / 2, low, low + high};
+        if (!isfinite(low) || is_taken(p, along, &b, below))
+            continue;
+        add_triangle(f, &b, below, order);
+        return true;
+    }
+    return false;
 }
 
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *p)

@@ -1,22 +1,97 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors, or differences of values, of any program over the size of elements or steps. */
+/* Errors of any program, or values with their limits, over the size of elements or steps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/quote.h"
+#include "base/words.h"
 #include "orders/orders.h"
 #include "plots/pictures.h"
 
-/* The errors, with the line of their order and its band; those of a joint fit, which is no line,
- * are joined. */
-static void add_line(struct br_figure *f, const struct br_orders *o,
-                     const struct br_quantity_orders *of, const struct br_orders_line *line)
+static const struct br_quantity *quantity_of(const struct br_orders *o,
+                                             const struct br_quantity_orders *of)
 {
-    char name[sizeof((struct br_series *)0)->title];
+    return &o->numbers->quantity[of->quantity];
+}
+
+/* A foreign name, shortened by whole characters; plain, or as markup. */
+enum { NAME = 40, MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
+static const char *shortened(const char *name, char *text)
+{
+    const bool whole = strlen(name) < NAME;
+    int most = NAME - 4;
+    while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
+        most--;
+    snprintf(text, NAME, "%.*s%s", whole ? NAME : most, name, whole ? "" : "...");
+    return text;
+}
+
+static const char *name_of(const char *name, char markup[MARKUP])
+{
+    return br_quoted(markup, MARKUP, &br_for_markup, shortened(name, (char[NAME]){0}));
+}
+
+/* "2.00 [1.99, 2.01]": what is found of the order along an axis. */
+static const char *order_of(const struct br_quantity_orders *of, enum br_axis axis, char text[96])
+{
+    const struct br_orders_line *line = br_orders_finest(of, axis);
+    const struct br_estimate *order = &of->answer[axis].order;
+    if (order->low > 0 && isfinite(order->value))
+        return br_order_text(order, text, 64);
+    if (!line || !isfinite(line->observed.factor.low))
+        return "not measurable";
+    br_order_text(&line->observed.factor, stpcpy(text, "exponential, by "), 64);
+    return text;
+}
+
+/* Appends "p = 1.91, GCI 0.03 %, limit 24.94 [24.93, 24.95]". g: NULL, of a grid. */
+static void say_value(const struct br_gci *g, const struct br_grid_limit *limit, char *text,
+                      size_t size)
+{
+    char number[128];
+    if (g && isfinite(g->fine.index))
+        br_append(text, size, "p = %.2f, GCI %.2g %%, ", g->order, 100 * g->fine.index);
+    if (isfinite(limit->value.low))
+        br_append(text, size, "limit %s", br_interval_text(&limit->value, number, sizeof number));
+    else
+        br_append(text, size, limit->sequence ? "no limit: %s" : "limit %s",
+                  br_sequence_text(limit->sequence));
+}
+
+/* "l2: 2.00 [1.99, 2.01]", of two axes "l2: h 2.00 [1.99, 2.01], k 1.00 [0.99, 1.01]": one title in
+ * all panels, so that the quantity has one hue. Plain. */
+static const char *title_of(const struct br_orders *o, const struct br_quantity_orders *of,
+                            char title[TITLE])
+{
+    char text[96];
+    const char *between = ": ";
+    const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
+    shortened(quantity_of(o, of)->name, title);
+    if (quantity_of(o, of)->is_value) {
+        say_value(of->lines == 1 ? &of->line->limits.gci : NULL, &of->limit, strcat(title, ": "),
+                  TITLE);
+        return title;
+    }
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        if (br_orders_finest(of, axis)) {
+            br_append(title, TITLE, "%s%s%s%s", between, both ? br_axis_letters[axis] : "",
+                      both ? " " : "", order_of(of, axis, text));
+            between = ", ";
+        }
+    return title;
+}
+
+/* The errors, with the line of their order and its band; those of a joint fit, which is no line,
+ * are joined. Returns the errors. */
+static const struct br_series *add_line(struct br_figure *f, const struct br_orders *o,
+                                        const struct br_quantity_orders *of,
+                                        const struct br_orders_line *line)
+{
+    char title[TITLE], name[TITLE];
     const struct br_case *c = &line->observed;
     const bool fitted = c->points && isfinite(c->point[0].fit.value);
-    br_quoted(name, sizeof name, &br_for_markup, o->numbers->quantity[of->quantity].name);
+    br_quoted(name, sizeof name, &br_for_markup, title_of(o, of, title));
     struct br_fitted_series s = {0};
     if (fitted)
         s = br_fitted_series_add(f, name);
@@ -33,63 +108,139 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
     for (size_t i = c->points; i-- > 0 && fitted;)
         br_point_add(s.area, c->point[i].z, c->point[i].fit.high, NULL);
     br_series_sort(s.marks);
+    return s.marks;
 }
 
-/* A size has the unit of the source; one over a count has none. */
+/* "mesh size h = 1/n"; a size has the unit of the source, too. */
 static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[96])
 {
-    static const char *const names[] = {"mesh size h", "time step k"};
     const struct br_resolution_column *column = numbers->column[axis];
-    const char *unit = numbers->unit[axis];
-    char quoted[60]; /* the label has room for 96 bytes */
-    if (!column->is_size)
-        snprintf(label, 96, "%s %s%s", names[axis], column->is_volume ? "from " : "= 1/",
-                 column->name);
-    else
-        snprintf(label, 96, "%s%s%s", names[axis], unit ? ", " : "",
-                 unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+    const char *unit = column->is_size ? numbers->unit[axis] : NULL;
+    char states[MARKUP], quoted[MARKUP];
+    name_of(column->is_degree ? "1/(degree + 1)" : column->states, states);
+    snprintf(label, 96, "%s %.40s%s%.40s", axis == BR_AXIS_SPACE ? "mesh size" : "time step",
+             states, unit ? ", " : "", unit ? name_of(unit, quoted) : "");
 }
 
-/* The unit is named where all quantities have the same. */
-static void name_quantities(const struct br_numbers *numbers, char label[96])
+/* The order of a triangle: a half or whole one where that is near. */
+static double slope_of(double order)
 {
-    const char *unit = numbers->quantity[0].unit;
-    size_t values = 0;
-    for (size_t i = 0; i < numbers->quantities; i++) {
-        const char *own = numbers->quantity[i].unit;
-        values += numbers->quantity[i].is_value;
-        unit = unit && own && strcmp(unit, own) == 0 ? unit : NULL;
-    }
-    char quoted[60]; /* the label has room for 96 bytes */
-    snprintf(label, 96, "%s%s%s",
-             values == 0                    ? "error"
-             : values < numbers->quantities ? "error, or difference of values"
-                                            : "difference of values",
-             unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
+    const double half = round(2 * order) / 2;
+    return fabs(order - half) < 0.15 ? half : round(10 * order) / 10;
 }
 
-/* The lines along one axis: for each quantity the one at the finest size of the other axis. */
-static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
+/* The lines of errors along one axis: for each quantity the one at the finest size of the other
+ * axis. Of each order one line has its triangle. */
+static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
 {
-    double slope[3];
-    size_t slopes = 0;
-    char x[96], y[96];
-    name_axis(o->numbers, axis, x);
-    name_quantities(o->numbers, y);
-    struct br_panel *p = br_panel_add(f, x, y);
-    p->log_x = p->log_y = true;
+    const struct br_series *line[BR_HUES];
+    double order[BR_HUES];
+    size_t lines = 0;
+    struct br_panel *p = NULL;
+    const char *common = NULL;
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
-        if (!finest)
+        const char *unit = o->numbers->quantity[o->of[i].quantity].unit;
+        char x[96], quoted[MARKUP];
+        if (!finest || quantity_of(o, &o->of[i])->is_value)
             continue;
-        add_line(f, o, &o->of[i], finest);
+        if (!p) {
+            name_axis(o->numbers, axis, x);
+            p = br_panel_add(f, x, "");
+            p->log_x = p->log_y = true;
+            BR_SAY(p->y_label, "error%s%s", unit ? ", " : "", unit ? name_of(unit, quoted) : "");
+            common = unit;
+        }
+        if (!common || !unit || strcmp(common, unit) != 0)
+            BR_SAY(p->y_label, "error"); /* not all have the same unit */
+        const struct br_series *marks = add_line(f, o, &o->of[i], finest);
+        if (marks->pen == BR_PEN_OTHERS && axis == o->of[i].line[0].axis)
+            br_append(f->note[1], sizeof f->note[1], "%s%s",
+                      f->note[1][0] ? "; " : "Grey: ", title_of(o, &o->of[i], (char[TITLE]){0}));
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        const double order = round(o->of[i].answer[axis].order.value);
-        if (slopes < 3 && order >= 1)
-            slopes = br_slope_put(slope, slopes, order);
+        if (lines < BR_HUES) {
+            order[lines] = slope_of(o->of[i].answer[axis].order.value);
+            line[lines++] = marks;
+        }
     }
-    br_slopes_add(f, slopes, slope);
+    for (size_t i = 0; i < lines; i++)
+        br_slope_add(f, line[i], order[i]);
+}
+
+/* ---- values ---- */
+
+/* The bar of an interval; an end that is far from the values has no cap. */
+static void add_bar(struct br_figure *f, double x, double half, const struct br_range *values,
+                    double low, double high)
+{
+    const double far = fmax(values->high - values->low, 0.01 * fabs(values->high));
+    const double ends[] = {fmax(low, values->low - far), fmin(high, values->high + far)};
+    struct br_series *bar = br_series_add(f, BR_PEN_THIN, "%s", "");
+    for (int i = 0; i < 2; i++) {
+        const double cap = ends[i] == (i ? high : low) ? half : 0;
+        br_point_add(bar, i ? x : x - cap, ends[i], NULL);
+        br_point_add(bar, x + cap, ends[i], NULL);
+        br_point_add(bar, i ? x - cap : x, ends[i], NULL);
+    }
+}
+
+/* The curve through the three finest values, which ends at their limit, as the grid convergence
+ * index takes it. */
+static void add_curve(struct br_figure *f, const struct br_gci *g, double h, double value,
+                      double end, const char *title)
+{
+    enum { PIECES = 60 };
+    struct br_series *s = br_series_add(f, BR_PEN_LINE, "%s", title);
+    for (int i = 0; i <= PIECES; i++) {
+        const double x = end * pow((double)i / PIECES, fmax(1, 1 / g->order));
+        br_point_add(s, x, g->fine.limit + (value - g->fine.limit) * pow(x / h, g->order), NULL);
+    }
+}
+
+/* A value over the size, its limit with the interval at 0, and at the finest size its GCI. */
+static void add_value(struct br_figure *f, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_quantity *q = quantity_of(o, of);
+    const struct br_gci *g = &line->limits.gci;
+    const struct br_estimate *limit = &line->limits.limit.value;
+    const size_t rows = line->observed.points + 1;
+    const struct br_numbers_row *row = o->numbers->row, *finest = NULL;
+    char name[MARKUP], unit[MARKUP], x[96];
+    double end = 0;
+    name_of(q->name, name);
+    name_axis(o->numbers, line->axis, x);
+    struct br_panel *p = br_panel_add(f, x, "");
+    BR_SAY(p->y_label, "%s%s%s", name, q->unit ? ", " : "", q->unit ? name_of(q->unit, unit) : "");
+    if (*line->at)
+        BR_SAY(p->title, "at %s: ", line->at);
+    say_value(g, &line->limits.limit, p->title, sizeof p->title);
+    const bool curve = g->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->low);
+    p->margins = true;
+    struct br_series *marks = br_series_add(f, curve ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", name);
+    for (size_t i = 0; i < rows; i++) {
+        const struct br_numbers_row *at = &row[line->row[i]];
+        br_point_add(marks, at->z[line->axis], at->number[of->quantity], NULL);
+        finest = isfinite(at->number[of->quantity]) ? at : finest;
+        end = fmax(end, at->z[line->axis]);
+    }
+    const struct br_range values = br_extent(p, true);
+    if (!finest)
+        return;
+    const double h = finest->z[line->axis], value = finest->number[of->quantity];
+    if (curve)
+        add_curve(f, g, h, value, end, name);
+    if (isfinite(g->fine.uncertainty)) {
+        br_series_add(f, BR_PEN_THIN, "GCI of the finest value");
+        add_bar(f, h, 0.015 * end, &values, value - g->fine.uncertainty,
+                value + g->fine.uncertainty);
+    }
+    if (isfinite(limit->low)) {
+        br_point_add(br_series_add(f, BR_PEN_RINGS, "limit, with its 95 %% interval"), 0,
+                     limit->value, NULL);
+        add_bar(f, 0, 0.015 * end, &values, limit->low, limit->high);
+    }
 }
 
 /* Adds errors over processor time where runs were timed. */
@@ -104,12 +255,11 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     struct br_panel *p = br_panel_add(f, "processor time (s)", "error");
     p->log_x = p->log_y = true;
     for (size_t i = 0; i < o->count; i++) {
-        char quoted[sizeof((struct br_series *)0)->title];
-        const struct br_quantity *q = &numbers->quantity[o->of[i].quantity];
-        if (q->is_value)
+        char title[TITLE], name[TITLE];
+        if (quantity_of(o, &o->of[i])->is_value)
             continue;
-        struct br_series *s = br_series_add(
-            f, BR_PEN_CURVE, "%s", br_quoted(quoted, sizeof quoted, &br_for_markup, q->name));
+        br_quoted(name, sizeof name, &br_for_markup, title_of(o, &o->of[i], title));
+        struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", name);
         for (size_t row = 0; row < numbers->rows; row++)
             if (br_orders_cheapest(o, o->of[i].quantity,
                                    numbers->row[row].number[o->of[i].quantity]) ==
@@ -120,20 +270,42 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     }
 }
 
+/* "Order of l2: 2.00 [1.99, 2.01]; h1: 1.000 [0.999, 1.001]", "drag: p = 1.91, ...". */
+static void say_title(const struct br_orders *o, char *title, size_t size)
+{
+    enum { MOST = 2 }; /* quantities */
+    char text[TITLE];
+    size_t said = 0;
+    for (size_t i = 0; i < o->count && said < MOST; i++) {
+        const struct br_quantity_orders *of = &o->of[i];
+        const bool value = quantity_of(o, of)->is_value;
+        const char *before = said ? "; " : value ? "" : "Order of ";
+        if (!of->lines)
+            continue;
+        br_append(title, size, "%s%s", before, title_of(o, of, text));
+        said++;
+    }
+    br_append(title, size, "%s", o->count > MOST ? "; ..." : "");
+}
+
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)
 {
     struct br_figure f = {0};
     BR_SAY(f.stem, "orders");
-    BR_SAY(f.title, "%s. Orders of convergence", caption);
-    BR_SAY(f.about, "errors, or differences of values, over the size of elements and of steps");
+    BR_SAY(f.note[0], "%s", caption);
+    BR_SAY(f.about, "errors, or values, over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        bool any = false;
-        for (size_t i = 0; i < orders->count; i++)
-            any |= br_orders_finest(&orders->of[i], (enum br_axis)axis) != NULL;
-        if (any)
-            add_panel(&f, orders, (enum br_axis)axis);
-    }
+    say_title(orders, f.title, sizeof f.title);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        add_errors(&f, orders, axis);
     add_costs(&f, orders);
+    for (size_t i = 0; i < orders->count; i++)
+        for (enum br_axis axis = 0; axis < BR_AXES && f.panels < BR_FIGURE_PANELS; axis++) {
+            const struct br_orders_line *line = br_orders_finest(&orders->of[i], axis);
+            if (line && quantity_of(orders, &orders->of[i])->is_value)
+                add_value(&f, orders, &orders->of[i], line);
+        }
+    if (f.panels == 1 && !f.panel[0].log_x)
+        f.panel[0].title[0] = '\0'; /* the figure has it */
     return f;
 }

@@ -44,6 +44,7 @@ enum br_pen {
     BR_PEN_PLUSES,
     BR_PEN_STARS,
     BR_PEN_SIGNS, /* a mark in black, for a key whose hues mean something else */
+    BR_PEN_THIN,  /* a thin dark line: a triangle of an order, the bar of an interval */
     BR_PENS
 };
 
@@ -55,9 +56,10 @@ struct br_figure_point {
 
 /* Series of one pen and title have one style in all panels, and one entry in the key. */
 struct br_series {
-    char title[80]; /* "": not in the key */
-    char end[80];   /* a text beside the last point; of a panel with rows, left of its axis */
-    bool stairs;    /* a line that keeps y until the next x, as a Pareto front does */
+    char title[160]; /* "": not in the key */
+    char end[80];    /* a text beside the last point; of a panel with rows, left of its axis */
+    bool end_left;   /* it stands left of the point */
+    bool stairs;     /* a line that keeps y until the next x, as a Pareto front does */
     enum br_pen pen;
     size_t style; /* 1, 2, ...: the hue; of a guide its dash */
     bool in_key;  /* the first one of its title */
@@ -74,6 +76,7 @@ struct br_range {
 struct br_panel {
     char title[96], x_label[96], y_label[96], top_label[32];
     bool log_x, log_y;
+    bool margins;              /* beside the points of a linear x */
     bool rows;                 /* y is the number of a row, whose label is the end of a series */
     struct br_series **series; /* `count` of them; owned */
     size_t count, room;
@@ -117,15 +120,12 @@ void br_fitted_point_add(const struct br_fitted_series *series, double x, double
 /* Sorts the points by x, then by y. */
 void br_series_sort(struct br_series *series);
 
-/* Call these two after the panel's series are filled. br_mark_add draws a line across the last
- * panel at one x, with a title in the key; br_slopes_add draws slopes to compare with, ascending,
- * right of all points of a panel with logarithmic axes. */
+/* Call these after the panel's series are filled. br_mark_add draws a line across the last panel at
+ * one x, with a title in the key. br_slope_add draws a triangle of an order beside a series of a
+ * panel with logarithmic axes, where no other series is near; false: there is no such place, or the
+ * panel has a triangle of that order. */
 void br_mark_add(struct br_figure *figure, double x, const char *title);
-void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
-
-/* Puts an order into an ascending list of `count`, unless the list has it; returns the new count.
- */
-size_t br_slope_put(double *order, size_t count, double new);
+bool br_slope_add(struct br_figure *figure, const struct br_series *series, double order);
 
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *point);

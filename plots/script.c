@@ -35,6 +35,7 @@ static const char *const styles[BR_PENS] = {
     [BR_PEN_RINGS] = "points pt 6 ps 1.5*size lw 2 lc rgb '#222222'",
     [BR_PEN_SQUARES] = "points pt 4 ps 2.6*size lw 2 lc rgb '#000000'",
     [BR_PEN_PLUSES] = "points pt 1 ps 1.1*size lw 2 lc rgb '#707070'",
+    [BR_PEN_THIN] = "lines lw 2 lc rgb '#333333'",
     [BR_PEN_STARS] = "points pt 3 ps 1.6*size lw 2.5 lc rgb '#000000'",
 };
 static const char *const guide_dashes[] = {"(9,5)", "(12,4,2,4)", "(3,3)", "(20,5)"};
@@ -120,14 +121,15 @@ static void add_series(const struct br_figure *f, struct key *key)
 static struct page lay_out(const struct br_figure *f)
 {
     const size_t n = f->panels ? f->panels : 1;
-    struct page l = {.width = n > 1 ? 1500 : 1200, .top = 65};
+    const bool rows = f->panels && f->panel[0].rows, small = n == 1 && !rows;
+    struct page l = {.width = n > 1 ? 1500 : small ? 960 : 1200, .top = 65};
     struct key key = {0};
     l.across = n <= 3 ? n : n == 4 ? 2 : 3;
     l.down = (n + l.across - 1) / l.across;
-    l.height = l.down > 1 ? 1250 : 800;
-    if (f->panels && f->panel[0].rows) { /* a line of text for each row */
-        const struct br_range rows = br_extent(&f->panel[0], true);
-        l.height = fmax(l.height, 250 + 28 * (rows.high - rows.low));
+    l.height = l.down > 1 ? 1250 : small ? 720 : 800;
+    if (rows) { /* a line of text for each */
+        const struct br_range r = br_extent(&f->panel[0], true);
+        l.height = fmax(l.height, 250 + 28 * (r.high - r.low));
     }
     for (size_t i = 0; i < BR_FIGURE_NOTES; i++)
         l.top += f->note[i][0] ? LINE - 4 : 0;
@@ -135,10 +137,17 @@ static struct page lay_out(const struct br_figure *f)
     const double columns = (l.width - 60) / (double)(key.longest * LETTER + SAMPLE);
     l.key_rows = (size_t)ceil((double)key.entries / fmax(1, floor(columns)));
     l.bottom = l.key_rows ? LINE * (double)l.key_rows + 15 : 0;
+    l.height += fmax(0, l.bottom - 4 * LINE);
     return l;
 }
 
 /* ---- the script: around the panels ---- */
+
+/* The size of letters with which a line of text has room, pixels. */
+static int letters_of(double size, double room, const char *text)
+{
+    return (int)fmax(10, fmin(size, 0.96 * room / 0.55 / (double)(strlen(text) + 1)));
+}
 
 /* Writes plain lines one below the other, none wider than the page. */
 static void write_titles(FILE *out, const struct br_figure *f, const struct page *l)
@@ -146,13 +155,12 @@ static void write_titles(FILE *out, const struct br_figure *f, const struct page
     double y = l->height - 35;
     for (size_t i = 0; i <= BR_FIGURE_NOTES; i++) {
         const char *line = i ? f->note[i - 1] : f->title;
-        const double fits = 0.96 * l->width / 0.55 / (double)(strlen(line) + 1);
         if (!*line)
             continue;
         fputs("set label ", out);
         br_quote(out, &br_for_gnuplot, line);
         fprintf(out, " at screen %.4f,%.4f left noenhanced font ',%d'\n", 30 / l->width,
-                y / l->height, (int)fmax(10, fmin(i ? SMALL : FONT + 2, fits)));
+                y / l->height, letters_of(i ? SMALL : FONT + 2, l->width, line));
         y -= LINE - 2;
     }
 }
@@ -231,30 +239,46 @@ static struct br_range axis_range(const struct br_figure *f, const struct br_pan
     if (along_y && p->rows)
         return (struct br_range){r.low - 0.7, r.high + 0.7};
     const double size = r.high > r.low ? r.high - r.low : fmax(fabs(r.high), 1);
-    const double more = along_y || p->rows || !(r.high > r.low) ? 0.06 * size : 0;
-    return (struct br_range){r.low == 0 ? 0 : r.low - more, r.high + more};
+    const bool wider = along_y || p->rows || p->margins || !(r.high > r.low);
+    const double more = wider ? 0.06 * size : 0;
+    return (struct br_range){r.low == 0 && !p->margins ? 0 : r.low - more, r.high + more};
 }
 
-/* Less than two decades contain one or two powers of ten, so 2 and 5 times these get labels, too.
- * Of many decades only as many get labels as have room; pixels: about the length of the axis. */
+/* The digits that tell numbers of a linear axis apart; a format has six at least. */
+static int digits_of(struct br_range r)
+{
+    const double digits = ceil(log10(fmax(fabs(r.low), fabs(r.high)) / (r.high - r.low))) + 2;
+    return digits > 6 ? (int)fmin(digits, 17) : 6; /* also of NaN */
+}
+
+/* Numbers are as people write them, 0.02, where all are near 1, else powers of ten. Less than two
+ * decades contain one or two of these, so 2 and 5 times these get labels, too. Of many decades only
+ * as many get labels as have room; pixels: about the length of the axis. */
 static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic, double pixels)
 {
     fprintf(out, "set %crange [%.9g:%.9g]\n", axis, r.low, r.high);
     if (!logarithmic) {
-        fprintf(out, "set %ctics nomirror autofreq; set format %c '%%g'\n", axis, axis);
+        const int digits = digits_of(r);
+        fprintf(out,
+                digits > 6 ? "set %ctics nomirror autofreq; set format %c '%%.%dg'\n"
+                           : "set %ctics nomirror autofreq; set format %c '%%g'\n",
+                axis, axis, digits);
         return;
     }
     /* Ticks start at a power of ten: without a start gnuplot 5.4 begins at half a decade for some
      * ranges, and labels it with the power below it. */
+    const bool plain = r.low > 2e-4 && r.high < 5e4;
     const double room = axis == 'x' ? 3.6 * SMALL : 1.8 * SMALL;
     const double step = ceil(room * decades(r) / pixels);
-    fprintf(out, "set logscale %c; set %ctics nomirror 1e%g,1e%g; set format %c '10^{%%L}'\n", axis,
-            axis, step * floor(log10(r.low) / step), step, axis);
+    fprintf(out, "set logscale %c; set %ctics nomirror 1e%g,1e%g; set format %c '%s'\n", axis, axis,
+            step * floor(log10(r.low) / step), step, axis, plain ? "%g" : "10^{%L}");
+    static const char *const more[] = {
+        "(sprintf('10^{%d}', p) 10.0**p, sprintf('2·10^{%d}', p) 2*10.0**p, "
+        "sprintf('5·10^{%d}', p) 5*10.0**p)",
+        "(sprintf('%g', 2*10.0**p) 2*10.0**p, sprintf('%g', 5*10.0**p) 5*10.0**p)"};
     if (decades(r) < 2)
-        fprintf(out,
-                "set for [p=%d:%d] %ctics add (sprintf('10^{%%d}', p) 10.0**p, "
-                "sprintf('2·10^{%%d}', p) 2*10.0**p, sprintf('5·10^{%%d}', p) 5*10.0**p)\n",
-                (int)floor(log10(r.low)), (int)ceil(log10(r.high)), axis);
+        fprintf(out, "set for [p=%d:%d] %ctics add %s\n", (int)floor(log10(r.low)),
+                (int)ceil(log10(r.high)), axis, more[plain]);
 }
 
 /* Writes numbers along the top, without those that would overlap the one before. pixels: about the
@@ -281,11 +305,12 @@ static void write_top(FILE *out, const struct br_panel *p, struct br_range x, do
     fprintf(out, ")\nset x2label '%s' font ',%d'\n", p->top_label, SMALL);
 }
 
-static void write_text(FILE *out, const char *what, const char *text)
+/* room: the length of the text's line, pixels. */
+static void write_text(FILE *out, const char *what, const char *text, double room)
 {
     fprintf(out, "set %s ", what);
     br_quote(out, &br_for_gnuplot, text);
-    fprintf(out, " font ',%d'\n", FONT);
+    fprintf(out, " font ',%d'\n", letters_of(FONT, room, text));
 }
 
 /* ---- the script: what is plotted ---- */
@@ -336,15 +361,14 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
     fputc('\n', out);
 }
 
-/* Writes boxes, and the texts beside last points, one above the other; those of rows in place of
- * the numbers along y. width: of the panel; row: from one to the next, about; pixels. */
+/* Writes boxes, and the texts beside last points; those of rows in place of the numbers along y.
+ * width: of the panel; row: from one to the next, about; pixels. */
 static void write_ends(FILE *out, const struct br_panel *p, double width, double row)
 {
     const double half = fmin(0.3, 12 / row); /* of a box */
-    size_t ends = 0, longest = 0, end = 0;
+    size_t longest = 0;
     for (size_t j = 0; j < p->count; j++) {
         const size_t length = strlen(p->series[j]->end);
-        ends += length > 0;
         longest = length > longest ? length : longest;
     }
     if (p->rows)
@@ -365,9 +389,8 @@ static void write_ends(FILE *out, const struct br_panel *p, double width, double
         if (p->rows)
             fprintf(out, " at graph 0, first %.9g right offset -0.6,0\n", last->y);
         else
-            fprintf(out, " at %.9g,%.9g left offset 0.4,%.1f\n", last->x, last->y,
-                    0.8 * ((double)end - ((double)ends - 1) / 2));
-        end++;
+            fprintf(out, " at %.9g,%.9g %s offset %s0.5,0\n", last->x, last->y,
+                    s->end_left ? "right" : "left", s->end_left ? "-" : "");
     }
 }
 
@@ -384,9 +407,9 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
             width / l->width, height / l->height);
     if (i == 0)
         write_titles(out, f, l);
-    write_text(out, "title", p->title);
-    write_text(out, "xlabel", p->x_label);
-    write_text(out, "ylabel", p->y_label);
+    write_text(out, "title", p->title, width - 60);
+    write_text(out, "xlabel", p->x_label, width - 60);
+    write_text(out, "ylabel", p->y_label, height);
     write_axis(out, 'x', x, p->log_x, 0.75 * width);
     write_axis(out, 'y', y, p->log_y, 0.7 * height);
     write_top(out, p, x, 0.75 * width / decades(x));

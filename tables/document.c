@@ -349,6 +349,14 @@ static size_t column_of(struct br_document *d, struct br_document_table *t,
     return at;
 }
 
+/* Of texts and counts; numbers are taken to differ. */
+static bool is_same(const struct br_value *a, const struct br_value *b)
+{
+    if (a->kind != b->kind || a->kind == BR_NUMBER || a->kind == BR_TRUTH)
+        return false;
+    return a->kind == BR_TEXT ? strcmp(a->text, b->text) == 0 : a->count == b->count;
+}
+
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value)
 {
     struct br_document_table *t = open_table(d);
@@ -361,8 +369,10 @@ void br_put_cell(struct br_document *d, const struct br_column *column, struct b
         refuse(d, "two values in a row for", t->column[at].key);
     d->last->value = copy;
     d->next = at + 1;
-    if (copy.kind != BR_NOTHING)
+    if (copy.kind != BR_NOTHING && !(copy.kind == BR_TEXT && !*copy.text))
         t->column[at].flags |= BR_FILLED;
+    if (!is_same(&copy, &t->row[0].cell[at].value))
+        t->column[at].flags |= BR_UNLIKE;
     if (copy.kind == BR_TEXT || copy.kind == BR_TRUTH)
         t->column[at].flags |= BR_TEXTUAL;
 }
@@ -376,6 +386,34 @@ void br_put_cells(struct br_document *d, size_t count, const struct br_value *va
 {
     for (size_t i = 0; i < count; i++)
         BR_PUT(d, values[i], .key = NULL);
+}
+
+void br_put_across(struct br_document *d)
+{
+    struct br_document_table *t = open_table(d);
+    char text[BR_SHOWN];
+    if (!t || t->rows == 0 || t->columns < BR_ACROSS * t->rows)
+        return;
+    br_put_table(d, "", t->title, BR_FOR_PEOPLE | t->flags);
+    for (size_t c = 0; c < t->columns && !d->failure.status; c++) {
+        const struct br_column *of = &t->column[c];
+        if (c > 0 && br_document_is_seen(t, c))
+            BR_PUT_ROW(d, br_text(br_format(d, "%s%s%s", of->heading, of->unit ? ", " : "",
+                                            of->unit ? of->unit : "")));
+        else if (c == 0)
+            br_put_columns(d, &(struct br_column){.key = "", .heading = of->heading}, 1);
+        for (size_t r = 0; r < t->rows && (c == 0 || br_document_is_seen(t, c)); r++) {
+            const char *shown = br_document_shown(of, &t->row[r].cell[c], text);
+            const struct br_column column = {.key = br_format(d, "%zu", r), .heading = shown};
+            if (c == 0)
+                br_put_columns(d, &column, 1);
+            else {
+                BR_PUT_CELLS(d, t->row[r].cell[c].value);
+                br_put_shown(d, "%s", shown);
+            }
+        }
+    }
+    t->flags |= BR_FOR_PROGRAMS;
 }
 
 void br_put_blank(struct br_document *d, bool blank)
@@ -491,7 +529,7 @@ const struct br_document_table *br_document_next_table(const struct br_document 
 {
     while (!d->failure.status && *block < d->blocks) {
         const struct br_block *b = &d->block[(*block)++];
-        if (b->kind == BR_BLOCK_TABLE && br_for_programs(b->table->flags))
+        if (b->kind == BR_BLOCK_TABLE && br_for_programs(b->table->flags) && b->table->rows)
             return b->table;
     }
     return NULL;

@@ -90,6 +90,8 @@ enum {
     BR_FILLED = 32,      /* a column with a value; set by br_put_cell */
     BR_TEXTUAL = 64,     /* a column with a text or a truth, aligned left; set by br_put_cell */
     BR_LONG = 128,       /* a table that a terminal shows at any length */
+    BR_VARIES = 256,     /* a column that people see only if its values differ */
+    BR_UNLIKE = 512,     /* a column whose values differ; set by br_put_cell */
 };
 enum { BR_LONG_TABLE = 24 /* rows: a terminal does not show longer tables, a page folds them */ };
 
@@ -139,9 +141,9 @@ struct br_document_verdict {
     const char *file;         /* the file of the expectation; NULL: none */
     size_t line;              /* of the file */
     double seconds;
-    bool of_row;              /* its numbers are in the last row, ... */
-    size_t table, row;        /* ... this row of block[table].table; set by br_put_verdict */
-    const char **detail;      /* lines; set by br_put_verdict_detail */
+    bool of_row;         /* its numbers are in the last row, ... */
+    size_t table, row;   /* ... this row of block[table].table; set by br_put_verdict */
+    const char **detail; /* lines; set by br_put_verdict_detail */
     size_t details, room;
 };
 
@@ -221,8 +223,8 @@ void br_document_clear(struct br_document *d);
 __attribute__((format(printf, 2, 3))) const char *br_format(struct br_document *d,
                                                             const char *format, ...);
 
-/* A short sentence of what was found, the verdict first. Reports begin with the answers, a terminal
- * shows them last. The eleventh becomes a note. */
+/* A short sentence of what was found, the verdict first. Reports begin with the answers. The
+ * eleventh becomes a note. */
 #define br_put_answer(d, ...) br_put_answer_text((d), br_format((d), __VA_ARGS__))
 void br_put_answer_text(struct br_document *d, const char *text); /* of br_format, as below */
 
@@ -251,8 +253,7 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
 /* A command line, or several, to copy; a fact in JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);
 
-/* Begins a table; adds columns to it before its first row. People do not see a table without rows;
- * in CSV it has its header. */
+/* Begins a table; adds columns to it before its first row. A table without rows is in JSON only. */
 void br_put_table(struct br_document *d, const char *key, const char *title, unsigned flags);
 void br_put_columns(struct br_document *d, const struct br_column *columns, size_t count);
 #define BR_TABLE(d, key, title, flags, columns)  \
@@ -279,6 +280,11 @@ void br_hide(struct br_document *d, const char *key, const char *unit, struct br
 
 /* Whether values become nothing from now on, until the end of the row. */
 void br_put_blank(struct br_document *d, bool blank);
+
+/* Ends a table of few rows and many columns: people see a line for each column, and the rows side by
+ * side under their first values. A table with less columns a row stays as it is. */
+enum { BR_ACROSS = 5 /* columns a row */ };
+void br_put_across(struct br_document *d);
 
 /* For people: a text instead of the last value ("refused", "tol 1e-05"), and a mark behind it
  * ("R"). Programs get neither: give them a column. */
@@ -315,8 +321,8 @@ extern const struct br_document_format br_document_text, br_document_csv, br_doc
     br_document_latex, br_document_json, br_document_html;
 
 /* Formats of the verdicts alone, for CI systems: JUnit's XML, a suite for each group, with the
- * numbers of the rows by their keys; and annotations of verdicts that did not pass (GitHub, Workflow
- * commands for GitHub Actions). */
+ * numbers of the rows by their keys; and annotations of verdicts that did not pass (GitHub,
+ * Workflow commands for GitHub Actions). */
 extern const struct br_document_format br_document_junit, br_document_github;
 
 /* The formats of every report; NULL-terminated. */
@@ -340,12 +346,13 @@ enum br_status br_document_print_page(FILE *out, const struct br_document *docum
 /* How many columns the terminal behind `out` has; 0: there is no terminal, or it does not say. */
 int br_document_columns(FILE *out);
 
-/* For a terminal: short tables that are not for files only, facts, verdicts that did not pass, and
- * last the answers and the commands. Where `out` is a terminal, no table is wider than it: headings
- * and long texts are wrapped, and columns that still find no room stand on further lines of their
- * row. PASS and FAIL have colours there, unless NO_COLOR is set or TERM is dumb. Fails as
- * br_document_print does. */
-enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err);
+/* For a terminal: the answers and the verdicts that did not pass, of all documents of one command;
+ * then short tables that are not for files only, facts, and last the commands. Where `out` is a
+ * terminal, no table is wider than it: headings and long texts are wrapped, and columns that still
+ * find no room stand on further lines of their row. PASS and FAIL have colours there, unless
+ * NO_COLOR is set or TERM is dumb. Fails as br_document_print does. */
+enum br_status br_document_show(FILE *out, const struct br_document *d, size_t count,
+                                struct br_error *err);
 
 /* The next table for a file of a by_table format, from block *block on (in/out, begins as 0); NULL:
  * there is no other one, or the document has failed. */
@@ -369,11 +376,13 @@ static inline const struct br_document_cell *br_document_cell_at(
     return &table->row[row].cell[column];
 }
 
-/* Whether people see a column: it is for them, and has a value. */
+/* Whether people see a column: it is for them, has a value, and tells its rows apart if it has to.
+ */
 static inline bool br_document_is_seen(const struct br_document_table *table, size_t column)
 {
     const unsigned flags = table->column[column].flags;
-    return br_for_people(flags) && flags & BR_FILLED;
+    const bool same = flags & BR_VARIES && !(flags & BR_UNLIKE) && table->rows > 1;
+    return br_for_people(flags) && flags & BR_FILLED && !same;
 }
 
 /* The text of a cell for people, without its mark. */

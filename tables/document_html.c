@@ -49,12 +49,14 @@ static const char style[] =
     "dd, figure { margin: 0; }\n"
     ".card { background: #ffffff; color: #000000; margin: 1.5rem 0 0.5rem; max-width: 60rem; }\n"
     "figcaption { color: var(--quiet); margin-bottom: 1.5rem; max-width: 60rem; }\n"
-    "svg { display: block; height: auto; min-width: 44rem; }\n"
+    "svg { display: block; height: auto; }\n"
+    "@media screen and (prefers-color-scheme: dark) {\n"
+    ".card { filter: invert(0.9) hue-rotate(180deg); } }\n"
     "@media print {\n"
     ".scroll, .card, pre { max-width: none; overflow: visible; }\n"
     "pre { white-space: pre-wrap; }\n"
-    "svg { min-width: 0; }\n"
     "figure, tr { break-inside: avoid; }\n"
+    "h2, h3, h4 { break-after: avoid; }\n"
     "::details-content { content-visibility: visible; } }\n";
 
 static bool is_folded(const struct br_document_table *t)
@@ -222,9 +224,8 @@ static void print_title(const struct br_markup_page *p, const struct br_document
                 (int)(first + blank + strcspn(d->format + first + blank, " ")), d->format, count);
 }
 
-/* Prints a list of the reports, with the first answer of each. */
-static void print_contents(const struct br_markup_page *p, const struct br_document *d,
-                           size_t count)
+/* Prints a list of the reports, with the tally of the verdicts or the first answer of each. */
+static void print_contents(struct br_markup_page *p, const struct br_document *d, size_t count)
 {
     fputs("<h1>", p->out);
     print_title(p, d, count);
@@ -233,7 +234,12 @@ static void print_contents(const struct br_markup_page *p, const struct br_docum
         fprintf(p->out, "<li><a href=\"#report%zu\">", i + 1);
         br_markup_put(p, "", d[i].caption, "</a> (");
         br_markup_put(p, "", d[i].name, ")<br>");
-        br_markup_put(p, "", d[i].answers ? d[i].answer[0] : "", "</li>\n");
+        p->d = &d[i];
+        if (p->d->verdicts)
+            br_markup_tally(p);
+        else
+            br_markup_text(p, p->d->answers ? p->d->answer[0] : "");
+        fputs("</li>\n", p->out);
     }
     fputs("</ol></nav>\n", p->out);
 }
@@ -249,6 +255,8 @@ enum br_status br_document_print_page(FILE *out, const struct br_document *d, si
     if (p.status)
         return p.status;
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+          "style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
           out);
     print_title(&p, d, count);

@@ -311,16 +311,24 @@ static void ask_terminal(struct br_markup_page *p)
 {
     const char *plain = getenv("NO_COLOR"), *term = getenv("TERM");
     p->columns = br_document_columns(p->out);
-    p->colour = isatty(fileno(p->out)) == 1 && !(plain && *plain) && term &&
-                strcmp(term, "dumb") != 0;
+    p->colour =
+        isatty(fileno(p->out)) == 1 && !(plain && *plain) && term && strcmp(term, "dumb") != 0;
 }
 
-static enum br_status print_page(FILE *out, const struct br_document *d, bool terminal,
-                                 struct br_error *err)
+/* Prints the heads of all documents, and then their bodies, with a title where there are several.
+ */
+static enum br_status print_pages(FILE *out, const struct br_document *d, size_t count,
+                                  bool terminal, struct br_error *err)
 {
-    struct buffers b = {.size = 4 * d->longest + BR_SHOWN}; /* \xff for a byte; heading and unit */
+    struct buffers b = {.size = BR_SHOWN};
     struct br_markup_page p = {
-        .out = out, .markup = &text, .d = d, .terminal = terminal, .own = &b, .err = err};
+        .out = out, .markup = &text, .terminal = terminal, .own = &b, .err = err};
+    for (size_t i = 0; i < count && !p.status; i++) {
+        p.status = br_document_status(&d[i], err);
+        b.size += 4 * d[i].longest; /* \xff for a byte; heading and unit */
+    }
+    if (p.status)
+        return p.status;
     if (terminal)
         ask_terminal(&p);
     b.visible = br_allocate(3, b.size);
@@ -328,22 +336,35 @@ static enum br_status print_page(FILE *out, const struct br_document *d, bool te
         return br_no_memory(err, "the text of a report");
     b.piece = b.visible + b.size;
     b.heading = b.piece + b.size;
-    const enum br_status status = br_markup_print(&p);
+    for (size_t i = 0; i < 2 * count && !p.status; i++) {
+        p.d = &d[i % count];
+        if (i && i < count)
+            fputc('\n', out);
+        if (i < count)
+            br_markup_head(&p);
+        else if (br_markup_has_body(&p)) {
+            if (count > 1) {
+                fputc('\n', out);
+                br_markup_heading(&p, p.level, p.d->caption);
+            }
+            br_markup_body(&p);
+        }
+    }
     free(b.visible);
-    return status;
+    return p.status;
 }
 
-enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err)
+enum br_status br_document_show(FILE *out, const struct br_document *d, size_t count,
+                                struct br_error *err)
 {
-    const enum br_status status = br_document_status(d, err);
-    return status ? status : print_page(out, d, true, err);
+    return print_pages(out, d, count, true, err);
 }
 
 static enum br_status write_text(FILE *out, const struct br_document *d,
                                  const struct br_document_table *table, struct br_error *err)
 {
     (void)table;
-    return print_page(out, d, false, err);
+    return print_pages(out, d, 1, false, err);
 }
 
 const struct br_document_format br_document_text = {

@@ -256,6 +256,14 @@ static size_t first_picture(const struct br_markup_page *p)
     return i;
 }
 
+bool br_markup_has_body(const struct br_markup_page *p)
+{
+    for (size_t i = 0; i < p->d->blocks; i++)
+        if (is_shown(p, i) || p->d->block[i].kind == BR_BLOCK_COMMAND)
+            return true;
+    return false;
+}
+
 /* Prints all blocks but `done`. Facts that follow each other are one list. */
 static void print_blocks(struct br_markup_page *p, size_t done)
 {
@@ -285,30 +293,33 @@ static void print_blocks(struct br_markup_page *p, size_t done)
 
 static void print_verdict(const struct br_markup_page *p, const struct br_document_verdict *v)
 {
+    const bool passed = v->outcome == BR_OUTCOME_PASS;
+    const size_t letters = strlen(v->name) + strlen(v->message ? v->message : "") +
+                           strlen(v->group) + (v->line ? strlen(v->file) : 0) +
+                           strlen("INCONCLUSIVE ,  (:1000): ");
+    const bool wraps = v->message && p->columns && letters > (size_t)p->columns;
     say(p, p->markup->verdict.before);
     print_word(p, v->outcome);
     fputc(' ', p->out);
     br_markup_text(p, v->group);
     br_markup_put(p, ", ", v->name, NULL);
-    const size_t letters = strlen(v->name) + strlen(v->message ? v->message : "") +
-                           strlen(v->group) + strlen("INCONCLUSIVE , : ");
-    const bool wraps = v->message && p->columns && letters > (size_t)p->columns;
+    if (v->line) {
+        br_markup_put(p, " (", v->file, NULL);
+        fprintf(p->out, ":%zu)", v->line);
+    }
     fputs(!v->message ? "" : wraps ? ":\n" : ": ", p->out);
     if (wraps)
         p->markup->paragraph(p, v->message);
     else
         br_markup_text(p, v->message);
     say(p, p->markup->verdict.after);
-    for (size_t i = 0; i < v->details; i++)
+    for (size_t i = 0; i < v->details && !(passed && p->terminal); i++)
         put(p, &p->markup->detail, v->detail[i]);
 }
 
-/* Prints the number of verdicts of each kind; for a terminal the answer has them. */
-static void count_verdicts(const struct br_markup_page *p)
+void br_markup_tally(const struct br_markup_page *p)
 {
     const char *between = "";
-    br_markup_heading(p, p->level + 1, "Verdicts");
-    say(p, p->markup->note.before);
     for (int outcome = BR_OUTCOME_PASS; outcome < BR_OUTCOMES; outcome++) {
         size_t count = 0;
         for (size_t i = 0; i < p->d->verdicts; i++)
@@ -319,16 +330,20 @@ static void count_verdicts(const struct br_markup_page *p)
         print_word(p, (enum br_outcome)outcome);
         between = ", ";
     }
-    say(p, p->markup->note.after);
 }
 
-/* Prints the verdicts that did not pass or have a message. */
+/* Prints the verdicts that did not pass or have a message; above them, but on a terminal, whose
+ * answer has it, the number of each kind. */
 static void print_verdicts(const struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
     bool any = false;
-    if (p->d->verdicts && !p->terminal)
-        count_verdicts(p);
+    if (p->d->verdicts && !p->terminal) {
+        br_markup_heading(p, p->level + 1, "Verdicts");
+        say(p, m->note.before);
+        br_markup_tally(p);
+        say(p, m->note.after);
+    }
     for (size_t i = 0; i < p->d->verdicts; i++) {
         const struct br_document_verdict *v = &p->d->verdict[i];
         if (v->outcome == BR_OUTCOME_PASS && !v->message)
@@ -340,44 +355,40 @@ static void print_verdicts(const struct br_markup_page *p)
     say(p, any ? m->verdicts.after : NULL);
 }
 
-static void print_answer(const struct br_markup_page *p)
-{
-    const struct br_markup *m = p->markup;
-    say(p, p->d->answers ? m->answers.before : NULL);
-    for (size_t i = 0; i < p->d->answers; i++)
-        put_paragraph(p, &m->answer, p->d->answer[i]);
-    say(p, p->d->answers ? m->answers.after : NULL);
-}
-
-/* Prints what a terminal shows last: the answers, and the commands that may be typed next. */
-static void print_end(const struct br_markup_page *p)
-{
-    print_verdicts(p);
-    say(p, p->d->answers ? p->markup->gap : NULL);
-    print_answer(p);
-    for (size_t i = 0; i < p->d->blocks; i++)
-        if (p->d->block[i].kind == BR_BLOCK_COMMAND)
-            print_command(p, &p->d->block[i]);
-}
-
-enum br_status br_markup_print(struct br_markup_page *p)
+void br_markup_head(const struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
     if (m->begin)
         m->begin(p);
     else
         br_markup_heading(p, p->level, p->d->caption);
+    say(p, p->d->answers ? m->answers.before : NULL);
+    for (size_t i = 0; i < p->d->answers; i++)
+        put_paragraph(p, &m->answer, p->d->answer[i]);
+    say(p, p->d->answers ? m->answers.after : NULL);
+    print_verdicts(p);
+}
+
+void br_markup_body(struct br_markup_page *p)
+{
     const size_t picture = first_picture(p);
-    if (!p->terminal) {
-        print_answer(p);
-        if (picture < p->d->blocks)
-            m->picture(p, &p->d->block[picture]);
-        print_verdicts(p);
-    }
+    if (picture < p->d->blocks)
+        p->markup->picture(p, &p->d->block[picture]);
     print_blocks(p, picture);
-    if (p->terminal)
-        print_end(p);
-    else if (m->end)
-        m->end(p);
+    const char *gap = p->markup->gap;
+    for (size_t i = 0; i < p->d->blocks && p->terminal; i++) /* to be typed next */
+        if (p->d->block[i].kind == BR_BLOCK_COMMAND) {
+            say(p, gap);
+            print_command(p, &p->d->block[i]);
+            gap = NULL;
+        }
+    if (p->markup->end)
+        p->markup->end(p);
+}
+
+enum br_status br_markup_print(struct br_markup_page *p)
+{
+    br_markup_head(p);
+    br_markup_body(p);
     return p->status;
 }

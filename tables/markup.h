@@ -15,7 +15,7 @@ struct br_markup_page {
     const char *folder; /* of drawn pictures; NULL: none */
     int level;          /* of the caption's heading */
     size_t pictures;    /* so far */
-    bool terminal;      /* it gets short tables only, and the answers last */
+    bool terminal;      /* it gets short tables only, and the commands last */
     int columns;        /* of the terminal; 0: not known, or no terminal */
     bool colour;        /* words of verdicts are coloured */
     void *own;          /* the format's */
@@ -72,6 +72,13 @@ void br_markup_lines(const struct br_markup_page *p, const char *lines);
 void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
                        const char *const word[3]);
 
+/* Prints "2 PASS, 1 FAIL": the verdicts of each kind. */
+void br_markup_tally(const struct br_markup_page *page);
+
+/* The head is the caption, the answers and the verdicts; the body is all else, if there is any. */
+bool br_markup_has_body(const struct br_markup_page *page);
+void br_markup_head(const struct br_markup_page *page);
+void br_markup_body(struct br_markup_page *page);
 enum br_status br_markup_print(struct br_markup_page *page);
 
 #endif

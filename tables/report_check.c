@@ -42,7 +42,7 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
                           .group = check->name,
                           .name = name_of(c, name),
                           .message = c->verdict == BR_PASS ? c->note : c->reason,
-                          .file = check->path,
+                          .file = check->no_file ? NULL : check->path,
                           .line = c->expected.line,
                           /* the orders of a study share its marches */
                           .seconds = check->seconds / (double)check->count,
@@ -128,27 +128,6 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         br_hide_fact(d, br_count(of[v]), NULL, "tally.%s", br_verdict_names[v]);
     br_hide_fact(d, br_number(f->wall_seconds), NULL, "wall_seconds");
 
-    /* The first checks that fail and orders that do not pass. */
-    char name[NAME], where[1100];
-    size_t failures = 0;
-    for (size_t i = 0; i < f->count; i++)
-        if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
-            br_put_answer(d, "%s cannot be verified: %s", f->checks[i].name,
-                          f->checks[i].failure.message);
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->checks[i].count; j++) {
-            const struct br_case *c = &f->checks[i].cases[j];
-            if (c->expected.line)
-                snprintf(where, sizeof where, " (%s:%zu)", f->checks[i].path, c->expected.line);
-            else
-                *where = '\0';
-            if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
-                br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
-                              f->checks[i].name, name_of(c, name), where, c->reason);
-        }
-    if (failures > FIRST_FAILURES)
-        br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
-
     const struct br_column orders_columns[] = {
         {.key = "verdict"},
         {.key = "scene", .heading = source_of(f)},
@@ -172,12 +151,13 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     for (size_t i = 0; i < f->count; i++) {
         const struct br_check *check = &f->checks[i];
         if (check->failure.status)
-            br_put_verdict(d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
-                                                            .group = check->name,
-                                                            .name = "verify",
-                                                            .message = check->failure.message,
-                                                            .file = check->path,
-                                                            .seconds = check->seconds});
+            br_put_verdict(
+                d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
+                                                 .group = check->name,
+                                                 .name = "verify",
+                                                 .message = check->failure.message,
+                                                 .file = check->no_file ? NULL : check->path,
+                                                 .seconds = check->seconds});
         for (size_t j = 0; j < check->count; j++) {
             const struct br_case *c = &check->cases[j];
             const struct br_expectation *e = &c->expected;

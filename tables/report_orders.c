@@ -12,7 +12,10 @@ static const struct br_quantity *quantity_of(const struct br_orders *o,
     return &o->numbers->quantity[of->quantity];
 }
 
-enum { MOST_NAMED = BR_MOST_ANSWERS - 6 }; /* quantities with an answer; the tables have all */
+enum {
+    MOST_NAMED = BR_MOST_ANSWERS - 6, /* quantities with an answer; the tables have all */
+    MOST_BESIDE = 4                   /* in one table of rows */
+};
 
 /* What is put before an item of a sentence; the first item follows a colon. */
 static const char *separator(bool *first)
@@ -41,19 +44,27 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
     br_put_more(d, ")");
 }
 
-/* The last rates between neighbours that count. */
-static void say_rates(struct br_document *d, const struct br_orders_line *line)
+/* What the order means: "half the mesh size, a quarter of the error". */
+static void say_meaning(struct br_document *d, const struct br_orders *o,
+                        const struct br_quantity_orders *of, enum br_axis axis, double order)
 {
-    enum { LAST = 3 };
-    const struct br_point *p = line->observed.point;
-    size_t from = line->observed.points, said = 0;
-    for (size_t found = 0; from > 1 && found < LAST; from--)
-        found += !p[from - 1].flag && !p[from - 2].flag && isfinite(br_orders_rate(line, from - 1));
-    for (size_t i = from; i < line->observed.points; i++) {
-        const double rate = p[i].flag || p[i - 1].flag ? (double)NAN : br_orders_rate(line, i);
-        if (isfinite(rate))
-            br_put_more(d, "%s%.2f", said++ ? ", " : ", last rates ", rate);
-    }
+    static const char *const parts[] = {"half", "a quarter", "an eighth", "a sixteenth"};
+    const char *finer = o->tied                               ? "half h and k"
+                        : o->numbers->column[axis]->is_degree ? "twice the degree"
+                        : axis == BR_AXIS_SPACE               ? "half the mesh size"
+                                                              : "half the time step";
+    const bool joint = br_joint_describes(&of->joint);
+    const char *number = quantity_of(o, of)->is_value ? "distance to the limit" : "error";
+    const double factor = exp2(order), whole = round(order);
+    const bool is_part = whole >= 1 && whole <= 4 && fabs(factor / exp2(whole) - 1) < 0.02;
+    br_put_more(d, ": %s, ", finer);
+    if (is_part)
+        br_put_more(d, "%s%s the %s", parts[(int)whole - 1], whole > 1 ? " of" : "", number);
+    else
+        br_put_more(d, factor < 10 ? "the %s divided by %.2g" : "the %s divided by %.0f", number,
+                    factor);
+    if (joint)
+        br_put_more(d, " in %s", br_axis_letters[axis]);
 }
 
 /* "exponential: each degree divides the error by 8.1 [7.9, 8.3]"; false: it is not, or not known.
@@ -87,16 +98,19 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         return; /* of three values, whose p is said */
     if (none && line && say_exponential(d, o, line, first))
         return;
-    br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
+    const bool alone = !none && (!o->numbers->column[!axis] || o->tied);
+    br_put_more(d, "%sorder %s%s%s%s%s%s", separator(first), alone ? "" : "in ",
+                alone ? "" : br_axis_letters[axis], alone ? "" : " ",
                 none ? "not measurable" : br_order_text(order, text, sizeof text),
-                !none && !br_order_determined(order) ? " (not determined)" : "",
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
+    if (!none && !br_order_determined(order))
+        br_put_more(d, " (not determined)");
+    else if (!none)
+        say_meaning(d, o, of, axis, order->value);
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))
         br_put_more(d, " (--value, if its limit is not known)");
-    if (!none && !joint)
-        say_rates(d, line);
 }
 
 static void say_orders(struct br_document *d, const struct br_orders *o,
@@ -254,9 +268,15 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
         br_put_more(d, ", p = %.2f", g->order);
         if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
             say_dimension(d, o, g->order);
-        br_put_more(d, ", GCI %.2g %%, asymptotic %.3f", 100 * g->fine.index, g->asymptotic);
+        br_put_more(d, ", GCI %.2g %% of the finest value, asymptotic %.3f", 100 * g->fine.index,
+                    g->asymptotic);
     }
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
+    const enum br_axis axis = of->line[0].axis;
+    /* Of three values, whose p is all that is known. */
+    if (of->lines == 1 && isnan(of->answer[axis].order.value) && !o->numbers->assumed &&
+        limit->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->value.low))
+        say_meaning(d, o, of, axis, g->order);
 }
 
 /* What follows from the formal order: an index that trusts it. */
@@ -292,47 +312,72 @@ static void put_given(struct br_document *d, const struct br_numbers *numbers, s
                    .format = numbers->column[axis]->is_size ? "%.6g" : "%.15g");
 }
 
-static void put_rows(struct br_document *d, const struct br_orders *o,
-                     const struct br_quantity_orders *of)
+/* Puts a number, its rates, and why the row is left out. number: of the quantity, where several
+ * stand in a row; else 0. */
+static void put_number(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of, size_t row, size_t number)
 {
-    static const char *const rates[] = {"rate_h", "rate_k"}, *const headings[] = {"rate in h",
-                                                                                  "rate in k"};
-    const struct br_numbers *numbers = o->numbers;
+    const struct br_numbers *n = o->numbers;
+    const struct br_numbers_row *r = &n->row[row];
     const struct br_quantity *q = quantity_of(o, of);
-    char key[80], title[160], name[64], text[80];
-    snprintf(key, sizeof key, "rows-%zu", of->quantity + 1);
-    snprintf(title, sizeof title, "%s %s, row by row", q->is_value ? "Value" : "Error", q->name);
-    br_put_table(d, key, title, BR_LONG);
-    for (size_t i = 0; i < numbers->rows; i++) {
-        const struct br_numbers_row *row = &numbers->row[i];
-        const double number = row->number[of->quantity];
-        const char *left_out = row->failure || isnan(number) ? br_flag_name(BR_FLAG_FAILED) : "";
-        const enum br_axis lost = isnan(row->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
+    const double found = r->number[of->quantity];
+    const char *left_out = r->failure || isnan(found) ? br_flag_name(BR_FLAG_FAILED) : "";
+    char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
+    if (number)
+        snprintf(prefix, sizeof prefix, "%zu ", number);
+    BR_PUT(d, br_number(found),
+           .key = br_format(d, "%s%s", prefix, q->is_value ? "value" : "error"),
+           .heading = number ? q->name : NULL, .unit = q->unit,
+           .format = q->is_value ? "%.9g" : "%.3e");
+    if (r->repeat)
+        BR_PUT(d, br_number(r->deviation[of->quantity]), .key = br_format(d, "%sdeviation", prefix),
+               .heading = "deviation", .unit = q->unit, .format = "%.1e");
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
+        const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
+        const enum br_flag flag = line ? line->observed.point[at->index].flag : BR_FLAG_NONE;
+        const char *letter = br_axis_letters[axis];
+        if (n->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
+            BR_PUT(d, br_number(line ? br_orders_rate(line, at->index) : (double)NAN),
+                   .key = br_format(d, "%srate_%s", prefix, letter),
+                   .heading = both ? br_format(d, "rate in %s", letter) : "rate", .format = "%.2f");
+        if (flag && flag != BR_FLAG_FAILED) /* the next finer one may have failed */
+            left_out = br_flag_name(flag);
+    }
+    if (r->failure && n->column[lost] && isnan(r->given[lost])) {
+        br_numbers_name(n, r, lost, name);
+        left_out = br_format(d, "failed, %s", name);
+    }
+    BR_PUT(d, br_text(left_out), .key = br_format(d, "%sleft_out", prefix), .heading = "left out");
+}
+
+/* Puts each row with some quantities: for programs one, for people the rates beside each number. */
+static void put_rows(struct br_document *d, const struct br_orders *o, size_t from, size_t to,
+                     unsigned flags)
+{
+    const bool people = flags & BR_FOR_PEOPLE, all = to - from == o->count;
+    const char *first = quantity_of(o, &o->of[from])->name;
+    const char *last = quantity_of(o, &o->of[to - 1])->name;
+    br_put_table(d, people ? "" : br_format(d, "rows-%zu", from + 1),
+                 people && all ? "Row by row"
+                 : people      ? br_format(d, "Row by row, %s to %s", first, last)
+                               : br_format(d, "%s, row by row", first),
+                 flags);
+    for (size_t row = 0; row < o->numbers->rows; row++) {
         br_put_row(d);
-        BR_PUT(d, br_text(q->name), .key = "quantity");
-        put_given(d, numbers, i);
-        BR_PUT(d, br_number(number), .key = q->is_value ? "value" : "error", .unit = q->unit,
-               .format = q->is_value ? "%.9g" : "%.3e");
-        if (row->repeat)
-            BR_PUT(d, br_number(row->deviation[of->quantity]), .key = "deviation", .unit = q->unit,
-                   .format = "%.1e");
-        for (int axis = 0; axis < BR_AXES; axis++) {
-            const struct br_row_point *at = of->point[axis] ? &of->point[axis][i] : NULL;
-            const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
-            const enum br_flag flag = line ? line->observed.point[at->index].flag : BR_FLAG_NONE;
-            if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
-                BR_PUT(d, br_number(line ? br_orders_rate(line, at->index) : (double)NAN),
-                       .key = rates[axis], .heading = headings[axis], .format = "%.2f");
-            if (flag && flag != BR_FLAG_FAILED) /* the next finer one may have failed */
-                left_out = br_flag_name(flag);
-        }
-        if (row->failure && numbers->column[lost] && isnan(row->given[lost])) {
-            br_numbers_name(numbers, row, lost, name);
-            snprintf(text, sizeof text, "failed, %s", name);
-            left_out = text;
-        }
-        BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");
-        BR_PUT(d, br_text(row->failure), .key = "failure", .flags = BR_FILES_ONLY);
+        if (!people)
+            BR_PUT(d, br_text(first), .key = "quantity");
+        put_given(d, o->numbers, row);
+        for (size_t i = from; i < to; i++)
+            put_number(d, o, &o->of[i], row, people ? i + 1 : 0);
+        BR_PUT(d, br_text(o->numbers->row[row].failure), .key = "failure",
+               .flags = BR_FILES_ONLY | BR_WRAP);
+        for (int axis = 0; axis < BR_AXES && !people; axis++)
+            if (o->numbers->column[axis])
+                BR_PUT(d, br_number(o->numbers->row[row].z[axis]),
+                       .key = axis == BR_AXIS_SPACE ? "size_h" : "size_k");
     }
 }
 
@@ -406,15 +451,15 @@ static void put_limit(struct br_document *d, const struct br_grid_limit *limit)
 static void put_triples(struct br_document *d, const struct br_orders *o)
 {
     static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
+        {.key = "quantity", .flags = BR_VARIES},
+        {.key = "in", .flags = BR_VARIES},
+        {.key = "at", .flags = BR_VARIES},
         {.key = "finest", .heading = "finest of three", .format = "%.10g"},
         {.key = "p", .format = "%.4f"},
         {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e"},
-        {.key = "sequence"},
+        {.key = "sequence", .flags = BR_VARIES},
     };
     BR_TABLE(d, "triples", "Grid convergence index of three neighbouring sizes", 0, columns);
     for (size_t i = 0; i < o->count; i++)
@@ -437,11 +482,11 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
 {
     enum { DIGITS = 3 };
     static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "what"},
+        {.key = "quantity", .flags = BR_VARIES},
+        {.key = "what", .flags = BR_VARIES},
         {.key = "wanted", .heading = "at most", .format = "%.0e"},
-        {.key = "column", .heading = "needs"},
-        {.key = "size"},
+        {.key = "column", .flags = BR_FOR_PROGRAMS},
+        {.key = "size", .heading = "needs"},
     };
     BR_TABLE(d, "needed", "What smaller errors need, if the order stays", 0, columns);
     for (size_t i = 0; i < o->count; i++) {
@@ -453,7 +498,8 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
                        br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
                        br_number(wanted), br_text(o->numbers->column[f.line->axis]->name),
                        br_number(size));
-            br_put_shown(d, "%s", given_text(o, f.line->axis, size, (char[32]){0}));
+            br_put_shown(d, "%s = %s", o->numbers->column[f.line->axis]->name,
+                         given_text(o, f.line->axis, size, (char[32]){0}));
         }
     }
 }
@@ -472,7 +518,7 @@ static void put_left_aside(struct br_document *d, const struct br_numbers *numbe
 void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
                       const char *caption, struct br_document *d)
 {
-    br_document_begin(d, "orders", "beamrate orders", 1, caption);
+    br_document_begin(d, "orders", "beamrate orders", 2, caption);
 
     size_t kept = 0;
     for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
@@ -510,18 +556,28 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.", kept,
                       o->numbers->rows);
 
+    for (size_t i = 0; i < o->count; i += MOST_BESIDE)
+        put_rows(d, o, i, i + MOST_BESIDE < o->count ? i + MOST_BESIDE : o->count,
+                 BR_FOR_PEOPLE | BR_LONG);
+
     static const struct br_column orders_columns[] = {
-        {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
+        {.key = "quantity", .flags = BR_VARIES},
+        {.key = "in", .flags = BR_VARIES},
+        {.key = "at", .flags = BR_VARIES},
         {.key = "order", .heading = "order [95 %]"},
         {.key = "low", .flags = BR_FOR_PROGRAMS},
         {.key = "high", .flags = BR_FOR_PROGRAMS},
-        {.key = "points"},
-        {.key = "used"},
+        {.key = "points", .flags = BR_VARIES},
+        {.key = "used", .flags = BR_VARIES},
         {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
     };
-    BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, orders_columns);
+    const bool told = !br_orders_is_grid(o) && o->count <= MOST_NAMED; /* by the answers */
+    bool any = false;
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines; l++)
+            any |= isfinite(o->of[i].line[l].observed.order.value);
+    BR_TABLE(d, "orders", "Orders along lines",
+             BR_MAIN | (any ? told ? BR_FILES_ONLY : 0 : BR_FOR_PROGRAMS), orders_columns);
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
@@ -531,6 +587,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             put_order(d, &c->order);
             BR_PUT_CELLS(d, br_count(c->points), br_count(c->used), br_text(c->note));
         }
+    br_put_across(d);
 
     static const struct br_column joint_columns[] = {
         {.key = "quantity"},
@@ -557,14 +614,15 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         BR_PUT_CELLS(d, br_number(f->c[BR_AXIS_SPACE].value), br_number(f->c[BR_AXIS_TIME].value),
                      br_count(f->points), br_number(f->misfit), br_number(f->floor));
     }
+    br_put_across(d);
 
     /* The limits of values. The grid convergence index is that of the three finest rows, relative
      * as Celik et al. print it. */
     static const struct br_column limits_columns[] = {
         {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
-        {.key = "sequence"},
+        {.key = "in", .flags = BR_VARIES},
+        {.key = "at", .flags = BR_VARIES},
+        {.key = "sequence", .flags = BR_VARIES},
         {.key = "limit"},
         {.key = "low", .flags = BR_FOR_PROGRAMS},
         {.key = "high", .flags = BR_FOR_PROGRAMS},
@@ -608,6 +666,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                        br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
         }
+    br_put_across(d);
 
     put_triples(d, o);
     put_needed(d, o);
@@ -616,7 +675,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         put_cheapest(d, o);
     }
     for (size_t i = 0; i < o->count; i++)
-        put_rows(d, o, &o->of[i]);
+        put_rows(d, o, i, i + 1, BR_FOR_PROGRAMS);
     if (o->numbers->lefts)
         put_left_aside(d, o->numbers);
 }

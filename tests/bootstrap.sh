@@ -63,7 +63,7 @@ for package; do grep -qx "$package" "$W/to_be_had" || exit 100; done
 printf '%s\n' "$@" >>"$W/installed"
 END
 
-every_package=$(sed -n '/^\(test_\)*packages="/,/"$/s/^\([a-z][-a-z0-9]*\) .*/\1/p' "$1")
+every_package=$(sed -n '/^\(test_\|beam_\)*packages="/,/"$/s/^\([a-z][-a-z0-9]*\) .*/\1/p' "$1")
 [ "$(echo "$every_package" | wc -w)" -ge 10 ] || exit 1
 
 # machine WITHOUT...: a new tree, on a machine with all packages but these; nothing is to be had yet.
@@ -123,6 +123,12 @@ printf '%s\n' libgsl-dev libcmocka-dev >"$work/to_be_had"
 starts 0 8 'needed packages beside an optional one that is not to be had' test
 starts 0 0 'the same again' test
 
+machine "$1" fish
+mkdir "$work/tree/build" && echo fish-common >"$work/tree/build/not-installed"
+echo fish >"$work/to_be_had"
+starts 0 4 'a package whose name begins one that was given up' test
+grep -q '^fish$' "$work/installed" || failures=$((failures + 1))
+
 machine "$1" libgsl-dev
 starts 3 4 'a needed package is not to be had'
 starts 3 4 'and is tried again'
@@ -170,6 +176,12 @@ BUILD=$work/elsewhere starts 0 0 'a folder of its own' build
 configured 'a folder of its own' "^setup $work/elsewhere "
 CC=clang BUILD=$work/clang starts 3 4 'Clang is a package'
 grep -q ' clang$' "$work/calls" || failures=$((failures + 1))
+
+machine "$1" libsuitesparse-dev liblapacke-dev libblas-dev libsleef-dev libcmocka-dev
+starts 0 0 'the general part alone' orders
+configured 'the general part alone' '-Dbeam=disabled'
+starts 0 0 'the general part again' orders
+configured 'the general part again'
 CC=acc starts 2 0 'CC is no program'
 starts 2 0 'an unknown part' --with gpu build
 starts 2 0 'a part that is gone' --with ida build
@@ -230,6 +242,19 @@ eval "$(sed -n '/^list_skipped()/,/^}/p' "${0%/*}/../bootstrap")"
 count=$(build=$work/log count_cases 1)
 [ "$count" = '1 passed, 1 failed' ] || {
     echo "the count of one good and one bad case is '$count'"
+    failures=$((failures + 1))
+}
+
+# A program that crashes or hangs counts as a failed case, also where none of its cases failed.
+cat >"$work/log/meson-logs/testlog.json" <<'END'
+{"stdout": "ok 1 - a\n", "result": "OK"}
+{"stdout": "ok 1 - b\n", "result": "FAIL"}
+{"stdout": "", "result": "TIMEOUT"}
+{"stdout": "said\n", "result": "OK"}
+END
+count=$(build=$work/log count_cases 1)
+[ "$count" = '3 passed, 2 failed' ] || {
+    echo "the count of a crash and a hang is '$count'"
     failures=$((failures + 1))
 }
 

@@ -18,7 +18,7 @@ cd "$work" || exit 99
 mkdir bin files few few/study few/study/scenes
 ln -s "$BEAMRATE" bin/beamrate
 PATH=$work/bin:$PATH
-export PATH XDG_STATE_HOME="$work/state" # what is trusted stays here
+export PATH
 
 # ---- what is printed: how, where and which line, once each ----
 

@@ -140,6 +140,11 @@ int mkdirat(int folder, const char *name, mode_t mode)
     return disk_fails() ? -1 : (int)syscall(SYS_mkdirat, folder, name, mode);
 }
 
+int mkostemp(char *name, int flags)
+{
+    return disk_fails() ? -1 : mkostemps(name, 0, flags);
+}
+
 int fsync(int file)
 {
     return disk_fails() ? -1 : (int)syscall(SYS_fsync, file);

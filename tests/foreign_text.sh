@@ -12,7 +12,6 @@ allowed=$(sed 's/ *#.*//' <<'END'
 * (scheme|contact|friction|solver|named|norms?(\[[a-z0-9]*\])?)->name # of registries
 * (c|\(\*c\))->(name|title)|row(->|\[i\]\.)name # commands, options
 * (list|rows|br_method_fields|br_field_variables)\[[^,]*\]\.name|list\[i\]\.words->title # our tables
-cli/commit.c e->name                         # of a result, in the list of sets
 cli/beam/topics.c list\[i\].title|title       # headings
 cli/*.c br_program\.name                     # of the program
 plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the figure's own is quoted

@@ -13,7 +13,7 @@ class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__(convert_charrefs=True)
         self.open, self.ids, self.targets, self.headings = [], [], [], []
-        self.tables, self.cell, self.style = [], None, ""
+        self.tables, self.cell, self.style, self.policy = [], None, "", ""
 
     def handle_starttag(self, tag, attrs):
         attrs = dict(attrs)
@@ -26,6 +26,8 @@ class Page(html.parser.HTMLParser):
                 self.targets.append(value[1:])
             self.targets += re.findall(r"url\(#([^)]*)\)", value or "")
         assert tag != "th" or attrs["scope"] == "col"
+        if attrs.get("http-equiv") == "Content-Security-Policy":
+            self.policy = attrs["content"]
         assert tag != "html" or attrs["lang"] == "en"
         if tag == "table":
             self.tables.append([])
@@ -105,9 +107,11 @@ def main(folder, pictures, texts):
     assert page.headings[0] == 1 and page.headings.count(1) == 1 and max(steps) <= 1
     assert text.count("<svg ") == int(pictures), text.count("<svg ")
     assert text.count("<figcaption>") == text.count("<figure>") >= int(pictures)
-    first = text.find("<figure>")  # right below the answers
-    assert not int(pictures) or text[:first].rstrip().endswith("</ul>"), text[first - 99:first]
+    first = text.find("<figure>")  # right below the answers and the verdicts
+    assert not int(pictures) or text[:first].rstrip().endswith(("</ul>", "</p>")), text[first - 99:first]
+    assert not int(pictures) or "<table>" not in text[:first]
     check_contrast(page.style)
+    assert "default-src 'none'" in page.policy and "script" not in page.policy, page.policy
     written = glob.glob(f"{folder}/*.md")  # by all commands but run
     expected = [table for name in written
                 for table in tables_of_markdown(open(name, encoding="utf-8").read())]

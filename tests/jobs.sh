@@ -3,11 +3,11 @@
 # The action and the job for solvers of others do as they say: the lines that they run, one step after
 # the other as GitHub does, on docs/orders/poisson.c, with and without a bug. What they build stands in
 # for the program. usage: jobs.sh SOURCE
-# $BEAMRATE is the program, $CC a compiler.
+# $BEAMRATE_ORDERS is the program, $CC a compiler.
 # shellcheck disable=SC2016 # what others expand
 set -u
 source=$1
-: "${BEAMRATE:?is the program}"
+: "${BEAMRATE_ORDERS:?is the program}"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
@@ -16,7 +16,7 @@ failures=0
 mkdir -p release/beamrate-0 bin work && cp -r "$source/docs/orders" work/
 cat >release/beamrate-0/bootstrap <<'END'
 #!/bin/sh
-[ "$1" = build ] && cli=${0%/*}/build/release/cli && mkdir -p "$cli" && ln -s "$BEAMRATE" "$cli/beamrate"
+[ "$1" = orders ] && cli=${0%/*}/build/orders/cli && mkdir -p "$cli" && ln -s "$BEAMRATE_ORDERS" "$cli/beamrate-orders"
 END
 cat >bin/curl <<'END'
 #!/bin/sh
@@ -58,7 +58,7 @@ job() {
             cd work || exit 99
             PATH=$(tr '\n' : <../github_path)$folder/bin:$PATH
             GITHUB_ACTION_PATH=$folder/release/beamrate-0 GITHUB_PATH=$folder/github_path RUNNER_TEMP=$folder/runner \
-                GITHUB_STEP_SUMMARY=$folder/summary XDG_STATE_HOME=$folder/state CHECK='poisson.yaml --trust' \
+                GITHUB_STEP_SUMMARY=$folder/summary TABLE=$table EXPECT='l2: h 2 +- 0.1' DIMENSION='' STUDY=$study \
                 BEAMRATE_ARCHIVE=file://$folder/beamrate.tar.gz \
                 BEAMRATE_SHA256=$(sha256sum <../beamrate.tar.gz | cut -d' ' -f1) bash -eo pipefail "../$step"
         ) >>log 2>&1 || code=$?
@@ -71,6 +71,7 @@ job() {
     failures=$((failures + 1))
 }
 
+table='' study=poisson.yaml
 for what in action.yml docs/ci/your-solver.yml; do
     steps "$source/$what"
     : >log
@@ -82,6 +83,14 @@ for what in action.yml docs/ci/your-solver.yml; do
     job 1 'the order, 1.0'
     cp "$source/docs/orders/poisson.c" work/orders/
 done
+what='action.yml with a table' table=errors.csv study=''
+steps "$source/action.yml"
+printf 'n,l2\n10,1e-1\n20,2.5e-2\n40,6.25e-3\n80,1.5625e-3\n' >work/orders/errors.csv
+job 0 '1 PASS'
+printf 'n,l2\n10,1e-1\n20,5e-2\n40,2.5e-2\n80,1.25e-2\n' >work/orders/errors.csv
+job 1 'the order, 1.0'
+steps "$source/docs/ci/your-solver.yml"
+what='a wrong checksum'
 sed -i 's/echo "\$BEAMRATE_SHA256/echo "0$BEAMRATE_SHA256/' step.1
-job 1 'no properly formatted' # a wrong checksum
+job 1 'no properly formatted'
 [ "$failures" -eq 0 ]

@@ -44,7 +44,7 @@ class Axes:
     """What is used of matplotlib's axes; it keeps what is drawn."""
 
     def __init__(self):
-        self.drawn, self.bands, self.labels = [], [], []
+        self.drawn, self.bands, self.bars, self.labels = [], [], [], []
 
     def plot(self, x, y, *_, fillstyle="line", label=None, **__):
         self.drawn.append((fillstyle, list(x), list(y)))
@@ -53,10 +53,16 @@ class Axes:
     def fill_between(self, x, low, high, **_):
         self.bands.append((list(x), list(low), list(high)))
 
-    def set(self, **_):
+    def errorbar(self, x, y, yerr, **_):
+        self.bars.append((list(x)[0], list(y)[0], np.ravel(yerr).tolist()))
+
+    def set(self, **texts):
+        self.title = texts.get("title", getattr(self, "title", None))
+
+    def legend(self):
         pass
 
-    legend = set
+    minorticks_off = legend
 
 
 def close(found, expected, tolerance=1e-9):
@@ -76,7 +82,7 @@ def refused(text, call, kind=(br.BadInput, TypeError, KeyError)):
 def check_frame(frame):
     found = br.orders(frame)
     assert [q.name for q in found.quantities] == ["L2", "H1"], found.quantities
-    assert repr(found).startswith("L2: order in h 2.000"), repr(found)
+    assert repr(found).startswith("L2: order 2.000"), repr(found)
     assert "left aside: rate" in repr(found)
     close(found["L2"].order.value, 2, 1e-4)
     close(found["H1"].h.value, 1, 1e-4)  # numbers of few digits
@@ -207,7 +213,7 @@ def check_notebook():
     assert rows[1] == ["10", "3.000e-02", "", "7.1", ""], rows
     assert rows[2] == ["20", "7.500e-03", "2.00", "7.05", "1.00"], rows
     assert rows[3][:2] == ["40", "failed"] and len(rows) == 6, rows
-    assert "".join(root[0].itertext()).startswith("<l2>: order in h 2.0"), text
+    assert "".join(root[0].itertext()).startswith("<l2>: order 2.0"), text
     h, k = np.repeat(1 / N, 5), np.tile(0.1 / N, 5)
     text = br.orders({"h": h, "k": k, "e": h ** 2 + k})._repr_html_()
     assert "<th>h</th><th>k</th><th>e</th><th>rate in h</th><th>rate in k</th>" in text, text
@@ -230,18 +236,30 @@ def check_plot(make):
     error = 3.0 / N ** 2
     error[0] = 5
     found = br.orders({"n": N, "e": error, "v": 7 + 1 / N}, errors="e", values="v")
-    axes = found.plot(make() if make else None)
+    refused("axes: found 1, expected a list of 2", lambda: found.plot(Axes()))
+    both = found.plot([make(), make()] if make else None)
     if not make:
-        assert len(axes.lines) == 6 and axes.get_legend(), axes.lines
+        assert [len(axes.lines) for axes in both] == [3, 8], [axes.lines for axes in both]
+        assert all(axes.get_legend() for axes in both)
         return
-    (_, x, y), (hollow, x_out, y_out), (_, x_fit, fit), *values = axes.drawn
+    axes, of_value = both
+    (_, x, y), (hollow, x_out, y_out), (_, x_fit, fit) = axes.drawn
     assert x == [1 / n for n in N[1:]] and y == error[1:].tolist(), (x, y)
     assert (hollow, x_out, y_out) == ("none", [0.1], [5])
-    assert len(x_fit) == 5 and len(values) == 3 and len(axes.bands) == 2
+    assert len(x_fit) == 5 and len(axes.bands) == 1
     for at, low, middle, high in zip(x_fit, axes.bands[0][1], fit, axes.bands[0][2]):
         close(middle / (3 * at ** 2), 1, 1e-6)
         assert low <= middle <= high
     assert "e: order in h 2.000 [1.999, 2.001]" in axes.labels, axes.labels
+    (_, x, y), (_, x_fit, fit) = of_value.drawn
+    assert x == [1 / n for n in N] and y == (7 + 1 / N).tolist(), (x, y)
+    assert x_fit[0] == 0
+    for at, value in zip(x_fit, fit):
+        close(value, 7 + at, 1e-8)
+    (h, finest, half), (zero, limit, around) = of_value.bars
+    assert (h, finest, zero) == (1 / 160, 7 + 1 / 160, 0)
+    close(half[0], 1.25 / 160, 1e-9)  # 1.25 |difference| / (r^p - 1)
+    assert abs(limit - 7) <= min(around) + 1e-9 and "p = 1.00, GCI 0.11 %\nlimit 7" in of_value.title
 
 
 def check_refusals():

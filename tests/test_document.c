@@ -11,7 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "support.h"
+#include "checks.h"
 #include "tables/document.h"
 
 static struct br_error err;
@@ -138,7 +138,7 @@ static char *printed(const struct br_document_format *format, const char *table)
     if (format)
         MUST(br_document_print(out, format, &d, table ? t : NULL, &err));
     else
-        MUST(br_document_show(out, &d, &err));
+        MUST(br_document_show(out, &d, 1, &err));
     assert_int_equal(fclose(out), 0);
     br_document_clear(&d);
     return text;
@@ -201,7 +201,7 @@ static void print_formats(FILE *out)
         }
     }
     fputs("==== the terminal\n", out);
-    MUST(br_document_show(out, &d, &err));
+    MUST(br_document_show(out, &d, 1, &err));
     br_document_clear(&d);
 }
 
@@ -258,7 +258,7 @@ static void show_on_terminal(int columns, char text[8192])
     FILE *out = fdopen(theirs, "w");
     assert_non_null(out);
     build_wide(&d);
-    MUST(br_document_show(out, &d, &err));
+    MUST(br_document_show(out, &d, 1, &err));
     assert_int_equal(fclose(out), 0);
     br_document_clear(&d);
     size_t length = 0;
@@ -296,7 +296,7 @@ TEST(test_width)
     FILE *out = open_memstream(&piped, &size);
     assert_non_null(out);
     build_wide(&d);
-    MUST(br_document_show(out, &d, &err));
+    MUST(br_document_show(out, &d, 1, &err));
     br_document_clear(&d);
     assert_int_equal(fclose(out), 0);
     assert_int_equal(setenv("NO_COLOR", "1", 1), 0);
@@ -469,7 +469,7 @@ TEST(test_built_wrongly)
         for (size_t f = 0; br_document_formats[f]; f++)
             REFUSED(br_document_print(stderr, br_document_formats[f], &d, NULL, &err), BR_IO,
                     messages[i]);
-        REFUSED(br_document_show(stderr, &d, &err), BR_IO, "the report wrong was built wrongly");
+        REFUSED(br_document_show(stderr, &d, 1, &err), BR_IO, "the report wrong was built wrongly");
         br_document_clear(&d);
     }
 }
@@ -544,7 +544,7 @@ static enum br_status print_without(const struct br_document_format *format, con
     build(&d);
     const struct br_document_table *table = br_document_next_table(&d, &block);
     const enum br_status status =
-        format ? br_document_print(out, format, &d, table, &err) : br_document_show(out, &d, &err);
+        format ? br_document_print(out, format, &d, table, &err) : br_document_show(out, &d, 1, &err);
     br_allocation_fails_at(-1);
     assert_int_equal(fclose(out), 0);
     if (status)

@@ -43,7 +43,7 @@ static void fill_curves(struct br_figure *f)
         br_point_add(&p->top, pow(10, i), 1000 >> i, NULL);
     BR_SAY(p->top_label, "steps N");
     br_mark_add(f, 10, "at 10");
-    br_slopes_add(f, 2, (const double[]){1, 2});
+    br_slope_add(f, p->series[1], 2);
 }
 
 static struct br_figure made(size_t panels)
@@ -93,8 +93,8 @@ TEST(test_hues)
 }
 
 /* Powers of ten are counted from a power of ten on: without a start gnuplot 5.4 puts the ticks of
- * 57.5 to 1737800 at 500, 5000, ... and the format names them 10^2, 10^3, ... The slopes of the
- * last are lines of orders 0.5 and 2; two series have no hue of their own. */
+ * 57.5 to 1737800 at 500, 5000, ... and the format names them 10^2, 10^3, ... The triangle is too
+ * flat to be drawn; two series have no hue of their own. */
 static void print_powers(FILE *out)
 {
     struct br_figure f = {.stem = "powers"};
@@ -106,8 +106,53 @@ static void print_powers(FILE *out)
         br_point_add(s, 100, 1e-16 * ((double)i + 1), NULL);
         br_series_sort(s);
     }
-    br_slopes_add(&f, 2, (const double[]){0.5, 2});
+    br_slope_add(&f, p->series[0], 0.5);
     print(out, f);
+}
+
+/* The longest side of a triangle rises like its order, beside the line that it belongs to; all of
+ * it is on one side of each line. There is one for each order, and none where lines leave no room.
+ */
+TEST(test_triangles)
+{
+    static const double order[] = {2, 1, 1, 3}, factor[] = {1, 1, 0.5, 1e-2};
+    struct br_figure f = {0};
+    struct br_panel *p = br_panel_add(&f, "h", "error");
+    p->log_x = p->log_y = true;
+    for (int line = 0; line < 4; line++) {
+        struct br_series *s = br_series_add(&f, BR_PEN_LINE, "%d", line);
+        for (int i = 0; i < 5; i++)
+            br_point_add(s, pow(0.5, i), factor[line] * pow(0.5, i * order[line]), NULL);
+    }
+    for (int line = 0; line < 4; line++)
+        assert_int_equal(br_slope_add(&f, p->series[line], order[line]), line != 2);
+    assert_int_equal(p->count, 7);
+    for (size_t t = 4; t < p->count; t++) {
+        const struct br_figure_point *at = p->series[t]->point;
+        const double rise = log(at[2].y / at[3].y) / log(at[2].x / at[3].x);
+        const int own = t == 4 ? 0 : t == 5 ? 1 : 3;
+        assert_int_equal(p->series[t]->count, 5);
+        assert_true(fabs(rise - order[own]) < 1e-9 && at[0].x == at[4].x && at[0].y == at[4].y);
+        for (int line = 0; line < 4; line++) {
+            size_t above = 0;
+            for (size_t i = 0; i < 5; i++)
+                above += at[i].y > factor[line] * pow(at[i].x, order[line]);
+            assert_true(above == 0 || above == 5);
+        }
+        const double beside = at[2].y / (factor[own] * pow(at[2].x, order[own]));
+        assert_true(fabs(log(beside)) < 0.1 * log(1e6));
+    }
+    br_figure_clear(&f);
+    f = (struct br_figure){0};
+    p = br_panel_add(&f, "h", "error");
+    p->log_x = p->log_y = true;
+    for (int line = 0; line < 40; line++) { /* everywhere */
+        struct br_series *s = br_series_add(&f, BR_PEN_LINE, "%d", line);
+        for (int i = 0; i < 5; i++)
+            br_point_add(s, pow(0.5, i), pow(0.8, line) * pow(0.5, i * 2), NULL);
+    }
+    assert_false(br_slope_add(&f, p->series[20], 2));
+    br_figure_clear(&f);
 }
 
 enum { SVG = 100000 };

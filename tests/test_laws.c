@@ -48,7 +48,7 @@ TEST(test_contact)
         CLOSE(force, after, 4e-16 * c.stiffness * size + 1e-14 * force);
         closed += force > 0;
     }
-    assert_in_range(closed, 1000, 9000);
+    assert_true(closed >= 1000 && closed <= 9000);
 }
 
 /* ---- friction that is solved directly ---- */
@@ -217,7 +217,7 @@ TEST(test_agreement)
         }
     }
     assert_true(rules >= 2);
-    assert_in_range(stuck, all / 5, all - all / 5);
+    assert_true(stuck >= all / 5 && stuck <= all - all / 5);
 }
 
 static double into(double lambda, double bound)
@@ -336,7 +336,7 @@ static void compare_marches(const char *name, const struct br_friction_rule *rul
         CLOSE(b->velocity[BR_BENDING], a->velocity[BR_BENDING], z * most + 1e-13);
     }
     const size_t count = br_march_counts(iterated).iterations;
-    assert_in_range(count, 200, 200 * (size_t)most_iterations(rule, &method.iteration));
+    assert_true(count >= 200 && count <= 200 * (size_t)most_iterations(rule, &method.iteration));
     assert_int_equal(br_march_counts(march).iterations, 0);
     br_march_free(march);
     br_march_free(iterated);

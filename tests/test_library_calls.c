@@ -158,7 +158,7 @@ TEST(orders_of_a_table)
     assert_int_equal(beamrate_orders_answer(orders, 2, BEAMRATE_SPACE, &answer), 0);
     assert_true(!*answer.quantity && isnan(answer.order.value));
     WORKS(beamrate_orders_report(orders, &json, &failure));
-    assert_non_null(strstr(json, "\"answer\": [\n  \"e: order in h 2.00"));
+    assert_non_null(strstr(json, "\"answer\": [\n  \"e: order 2.00"));
     assert_non_null(strstr(json, "\"gci_fine\": "));
     const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
     ENDS(beamrate_orders_check_quantity(&check, orders, 2, &expected, 1, &failure),

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "support.h"
+#include "checks.h"
 
 enum { ROWS = 8, MOST = 12, SOME = 7 };
 
@@ -412,7 +412,7 @@ static size_t of_rates(const double *rate, struct br_order_point *point)
 {
     size_t count = 1;
     point[0] = (struct br_order_point){.z = 1, .error = 1};
-    for (; rate[count - 1]; count++)
+    for (; rate[count - 1] != 0; count++)
         point[count] = (struct br_order_point){
             .z = point[count - 1].z / 2, .error = point[count - 1].error * exp2(-rate[count - 1])};
     return count;
@@ -465,8 +465,11 @@ TEST(test_interval_of_noise)
 {
     static const struct {
         size_t rows;
-        double t; /* of rows - 2 degrees of freedom, 97.5 % */
-    } lines_of[] = {{4, 4.302653}, {5, 3.182446}, {6, 2.776445}, {7, 2.570582}};
+        double t, t99; /* of rows - 2 degrees of freedom, 97.5 % and 99.5 % */
+    } lines_of[] = {{4, 4.302653, 9.924843},
+                    {5, 3.182446, 5.840909},
+                    {6, 2.776445, 4.604095},
+                    {7, 2.570582, 4.032143}};
     static const double noise[] = {0.02, -0.03, 0.03, -0.02, 0.01, -0.025, 0.03};
     for (size_t l = 0; l < sizeof lines_of / sizeof *lines_of; l++) {
         struct br_order_point point[ROWS];
@@ -484,5 +487,36 @@ TEST(test_interval_of_noise)
         const double ratio = (found.order.high - found.order.low) / 2 / half;
         if (!(ratio >= 0.8 && ratio <= 2))
             fail_msg("%zu rows: %g times as wide", lines_of[l].rows, ratio);
+        const double wider = (found.high99 - found.low99) / (found.order.high - found.order.low);
+        const double share = wider * lines_of[l].t / lines_of[l].t99;
+        if (!(share >= 0.84 && share <= 1.55)) /* of a 98 % interval 0.68 to 0.83 */
+            fail_msg("%zu rows: the 99 %% interval is %g times as wide", lines_of[l].rows, wider);
+    }
+}
+
+/* By hand: a row that scatters ten times as much has a hundredth of the weight. */
+TEST(test_weights)
+{
+    enum { HAND = 5 };
+    for (size_t odd = 0; odd < HAND; odd++) {
+        struct br_order_point point[HAND];
+        struct br_line_order found;
+        double slope[3]; /* by weights of 1, 1/sigma and 1/sigma^2 */
+        for (int power_of = 0; power_of < 3; power_of++) {
+            double w = 0, x = 0, y = 0, xx = 0, xy = 0;
+            for (size_t i = 0; i < HAND; i++) {
+                const double log_z = -(double)i * log(2);
+                const double log_e = 2 * log_z + (i == odd ? 0.03 : i % 2 ? 0.003 : -0.003);
+                const double sigma = i == odd ? 0.02 : 0.002, weight = pow(sigma, -power_of);
+                point[i] = (struct br_order_point){
+                    .z = exp(log_z), .error = exp(log_e), .deviation = sigma * exp(log_e)};
+                w += weight, x += weight * log_z, y += weight * log_e;
+                xx += weight * log_z * log_z, xy += weight * log_z * log_e;
+            }
+            slope[power_of] = (w * xy - x * y) / (w * xx - x * x);
+        }
+        find(point, HAND, &found);
+        if (odd != HAND / 2) /* there no weight turns the line */
+            AT_MOST(fabs(found.order.value - slope[2]), 0.25 * fabs(slope[1] - slope[2]));
     }
 }

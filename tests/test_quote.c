@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What foreign strings become in each kind of text, by cases written by hand. */
-#include "support.h"
+#include "checks.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -7,7 +7,7 @@
 
 #include "base/words.h"
 #include "orders/reading/reading.h"
-#include "support.h"
+#include "checks.h"
 
 /* A table and what it must give: the heading and each row in a line, with a bar behind each field;
  * then the lines that are left, "2 title". Or with a colon first, the refusal. */
@@ -294,9 +294,11 @@ TEST(test_numbers)
 
 TEST(test_missing)
 {
-    static const char *const missing[] = {NULL,     "",    "-",       "--",   "---",
-                                          "\u2013", "NaN", "-nan",    "N/A",  "inf",
-                                          "-Inf",   "***", "missing", "null", "$-$"};
+    static const char *const missing[] = {
+        NULL,      "",     "-",    "--",       "---",       "\u2013", "\u2014",   "\u2212",
+        "NaN",     "-nan", "+nan", "NA",       "N/A",       "n.a.",   "#N/A",     "None",
+        "inf",     "-Inf", "+inf", "Infinity", "-infinity", "\u221e", "***",      "*",
+        "missing", "null", "<NA>", "$-$",      "{-}",       "$--$",   "$\\infty$"};
     static const char *const present[] = {"0", "x", "-1", "nano", "* 1", "na na"};
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         assert_true(br_field_is_missing(missing[i]));
@@ -338,7 +340,7 @@ TEST(test_large_tables)
     refuse(table_of(2, 40000), "t:1: found more than 1000 columns");
 }
 
-static bool stop(__attribute__((unused)) void *self)
+static bool always(__attribute__((unused)) void *self)
 {
     return true;
 }
@@ -347,7 +349,7 @@ TEST(test_interrupted)
 {
     struct br_fields fields;
     struct br_error err = {0};
-    const struct br_observer observer = {.stop = stop};
+    const struct br_observer observer = {.stop = always};
     assert_int_equal(br_fields_read("h,e\n1,2\n", "t", &observer, &fields, &err), BR_INTERRUPTED);
     br_fields_clear(&fields);
 }

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "plots/pictures.h"
-#include "support.h"
+#include "checks.h"
 
 static void make_folder(char folder[64])
 {

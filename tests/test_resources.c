@@ -7,6 +7,7 @@
 
 #include <malloc.h>
 #include <math.h>
+#include <string.h>
 
 #include "solver/linear/linear_solver.h"
 #include "support.h"
@@ -101,6 +102,8 @@ TEST(test_refused)
     o.n = 3000000;
     o.steps = 1000000000000;
     REFUSED(br_check_ahead(&o, &w, &err), BR_BAD_INPUT, "years, expected at most a hundred");
+    const char *about = strstr(err.message, "about ");
+    CLOSE(strtod(about + strlen("about "), NULL) / (br_march_seconds(&o) / 31557600), 1, 0.051);
     o.n = 10000;
     o.steps = 10000000000;
     MUST(br_check_ahead(&o, &w, &err));

@@ -95,12 +95,12 @@ static void run_command(char *row)
         out.exit_code = run_shell(row + 2);
     else
         cli_run_line(row, &circumstances, &out);
+    circumstances = (struct cli_circumstances){0}; /* also before a failure */
     if (out.exit_code != expected)
         fail_msg("exit code %d, expected %ld; it said:\n%s", out.exit_code, expected, out.output);
     check_text("the output", out.output, message, true);
     if (out.exit_code == 2 && strstr(message, "--"))
         check_text("the refusal", out.output, "beamrate: warning: ", false);
-    circumstances = (struct cli_circumstances){0};
 }
 
 static void check_count(const char *folder, const char *count)

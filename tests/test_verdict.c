@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "study/verify/check.h"
-#include "support.h"
+#include "checks.h"
 
 enum { MOST = 12 };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "orders/request.h"
 #include "study/scene/file.h"
 #include "study/verify/verify.h"
 #include "support.h"
@@ -98,6 +99,25 @@ TEST(test_whole)
     CLOSE(tip->band.ceiling, 2e-5, 0);
     br_verify_clear(&v);
     br_scene_clear(&scene);
+}
+
+/* No bundled scene is taken for a study file of another program. */
+TEST(test_scenes_are_no_study_files)
+{
+    char **names, path[1200];
+    size_t count = 0;
+    struct br_error err = {0};
+    MUST(br_scene_list(&names, &count, &err));
+    assert_true(count > 5);
+    for (size_t i = 0; i < count; i++) {
+        char *text;
+        MUST(br_scene_find(names[i], path, sizeof path, &err));
+        MUST(br_scene_load(path, &text, &err));
+        if (br_is_study_file(text))
+            fail_msg("%s is taken for a study file", path);
+        free(text);
+    }
+    br_scene_list_free(names, count);
 }
 
 /* A part that the scene does not model has no order. */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A set of results is the old one or the new one, wherever the program is ended. */
-#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,9 +25,11 @@ static struct cli_outcome out;
 static const char old_line[] = "study summary.yaml --n 4 --k 0.1 --no-plots --quiet --out set",
                   new_line[] = "run example1 --n 4 --k 0.1 --no-plots --quiet --out set";
 
-/* As a command: puts files of these names into the set. Returns the exit code. */
+/* As a command: puts files of these names, each with a word of the set, into it. Returns the exit
+ * code. */
 static int write_set(const char *folder, char *names)
 {
+    const char *command = strstr(names, "history.csv") ? "beamrate run" : "beamrate study";
     struct br_output output = {0};
     struct br_error err = {0};
     bool failed = br_output_open(&output, folder, &err) != BR_OK;
@@ -34,7 +37,7 @@ static int write_set(const char *folder, char *names)
         FILE *file;
         failed = br_output_file(&output, name, &file, &err) != BR_OK;
         if (!failed)
-            failed = fputs(name, file) < 0 || br_output_close(file, name, &err);
+            failed = fputs(command, file) < 0 || br_output_close(file, name, &err);
     }
     failed = failed || br_output_commit(&output, &err);
     br_output_discard(&output);
@@ -92,24 +95,20 @@ static void clear_set(void)
 
 /* ---- the reader of a set ---- */
 
-/* Whether a file of the set has the size and the time that a line of its list says. */
-static bool is_as_listed(const char *line, char name[256])
+/* What wrote a file: s or r, of the two commands; ?: it does not say. */
+static char writer_of(const char *name)
 {
-    long long size, time;
-    char path[512], place[300];
-    struct stat info;
-    assert_int_equal(sscanf(line, "%*u %lld %lld %255[^\n]", &size, &time, name), 3);
+    char place[500];
     snprintf(place, sizeof place, "set/%s", name);
-    cli_path(place, path);
-    return stat(path, &info) == 0 && info.st_size == size &&
-           info.st_mtim.tv_sec * 1000000000LL + info.st_mtim.tv_nsec == time;
+    const char *text = cli_read(place);
+    return strstr(text, "beamrate study") ? 's' : strstr(text, "beamrate run") ? 'r' : '?';
 }
 
 /* The command that wrote the set, which must be whole and alone in the folder: s or r; d: it is
  * decided for the new set, but that is not in place. */
 static char set_that_is_there(void)
 {
-    char path[512], line[400], name[256], which = '?';
+    char path[512], line[400], written[100] = "";
     size_t count = 0;
     if (cli_is_there("set/.beamrate-new/.beamrate-set"))
         return 'd';
@@ -117,18 +116,22 @@ static char set_that_is_there(void)
     FILE *list = fopen(path, "r");
     assert_non_null(list);
     assert_non_null(fgets(line, sizeof line, list));
+    assert_string_equal(line, "beamrate-set 3\n");
     for (; fgets(line, sizeof line, list); count++) {
-        if (!is_as_listed(line, name))
-            fail_msg("not as the list says: %s", line);
-        if (strcmp(name, "history.csv") == 0 || strcmp(name, "summary.csv") == 0)
-            which = *name == 'h' ? 'r' : 's';
+        line[strcspn(line, "\n")] = '\0';
+        assert_true(count < sizeof written - 1);
+        written[count] = writer_of(line);
     }
     fclose(list);
+    const char which = cli_is_there("set/history.csv") ? 'r' : 's',
+               other = which == 'r' ? 's' : 'r';
     const size_t hidden =
         (size_t)cli_is_there("set/.beamrate-new") + cli_is_there("set/.beamrate-lock");
-    if (cli_count_files("set") != count + hidden) {
+    if (cli_count_files("set") != count + hidden || !strchr(written, which) ||
+        strchr(written, other)) {
         shell("ls -lA set; cat set/.beamrate-set");
-        fail_msg("%zu files, and %zu listed", cli_count_files("set") - hidden, count);
+        fail_msg("%zu files, and %zu listed, which were written by %s",
+                 cli_count_files("set") - hidden, count, written);
     }
     return which;
 }
@@ -248,55 +251,63 @@ TEST(test_killed_at_random)
     assert_true(old > 0);
 }
 
-/* An edited result of the same size: the new set is beside it, and the old one stays. */
-TEST(test_edited)
+/* Somebody's file at the place of a new one: the new set is beside it, and the old one stays. So do
+ * a folder and a link at the place of a file of ours. */
+TEST(test_in_way)
 {
     make_old();
-    shell("printf SUMMARY.csv >set/summary.csv");
+    shell("echo mine >set/history.csv");
     assert_int_equal(write_as_program("history.csv summary.csv"), 3);
-    assert_string_equal(cli_read("set/summary.csv"), "SUMMARY.csv");
-    assert_string_equal(cli_read("set/set-1/summary.csv"), "summary.csv");
-    assert_false(cli_is_there("set/history.csv"));
+    assert_string_equal(cli_read("set/history.csv"), "mine\n");
+    assert_string_equal(cli_read("set/summary.csv"), "beamrate study");
+    assert_string_equal(cli_read("set/set-1/summary.csv"), "beamrate run");
+    make_old();
+    shell("cd set && rm summary.csv summary.json && mkdir summary.csv && ln -s .. summary.json");
+    assert_int_equal(write_as_program("history.csv summary.csv"), 3);
+    assert_int_equal(write_as_program("history.csv"), 0);
+    assert_false(cli_is_there("set/report.html"));
+    assert_true(cli_is_there("set/summary.csv") && cli_is_there("set/summary.json"));
 }
 
-/* The results of a scene that is called as the page is: a page does not replace them. */
-TEST(test_scene_called_report)
+/* A set takes the place of the one before, whatever its files are called, and of nothing else. */
+TEST(test_one_set)
 {
     clear_set();
+    shell("echo mine >set/notes.csv");
     assert_int_equal(write_as_program("report.csv report.html"), 0);
     assert_int_equal(write_as_program("report.html summary.csv"), 0);
-    assert_string_equal(cli_read("set/report.csv"), "report.csv");
+    assert_int_equal(cli_count_files("set"), 3);
     assert_true(cli_is_there("set/summary.csv"));
+    assert_string_equal(cli_read("set/notes.csv"), "mine\n");
 }
 
 /* ---- two at once ---- */
 
-/* One waits for the lock of a file that is then removed, and made again by a third. */
-TEST(test_lock_is_of_the_name)
+static const char *removed; /* a file that is removed before the next lock; NULL: none */
+
+int flock(int file, int operation)
 {
-    char path[512];
-    struct stat locked, named;
-    int ending;
+    if (removed)
+        unlink(removed);
+    return (int)syscall(SYS_flock, file, operation);
+}
+
+/* The program before ends, and removes its lock, while the next one is about to lock that file: a
+ * third one may have made another. */
+TEST(test_lock_of_a_removed_file)
+{
+    char path[512], lock[600];
+    struct br_output output = {0};
+    struct br_error err;
     clear_set();
     cli_path("set", path);
-    const int folder = open(path, O_RDONLY | O_DIRECTORY),
-              lock = br_lock_file(folder, "lock", true);
-    assert_true(lock >= 0 && br_lock_file(folder, "lock", false) < 0);
-    const pid_t child = fork();
-    assert_true(child >= 0);
-    if (!child) {
-        close(lock); /* it has the parent's lock, too */
-        const int file = br_lock_file(folder, "lock", true);
-        const bool same = fstat(file, &locked) == 0 && fstatat(folder, "lock", &named, 0) == 0 &&
-                          locked.st_ino == named.st_ino;
-        _exit(!same);
-    }
-    usleep(100000);
-    shell("mv set/lock set/removed && touch set/lock");
-    close(lock);
-    assert_int_equal(waitpid(child, &ending, 0), child);
-    assert_int_equal(ending, 0);
-    close(folder);
+    snprintf(lock, sizeof lock, "%s/.beamrate-lock", path);
+    removed = lock;
+    assert_int_equal(br_output_open(&output, path, &err), BR_BAD_INPUT);
+    assert_non_null(strstr(err.message, "in use by another program"));
+    removed = NULL;
+    assert_int_equal(br_output_open(&output, path, &err), BR_OK);
+    br_output_discard(&output);
 }
 
 static pid_t start_slow(const char *line)
@@ -347,7 +358,7 @@ TEST(test_two_at_once)
     const pid_t first = start_slow(new_line);
     for (int i = 0; i < 1000 && !cli_is_there("set/.beamrate-new"); i++)
         usleep(5000);
-    cli_expect(new_line, NULL, 2, "in use by process");
+    cli_expect(new_line, NULL, 2, "in use by another program");
     assert_int_equal(waitpid(first, &ending, 0), first);
     assert_int_equal(ending, 0);
     assert_int_equal(set_that_is_there(), 'r');

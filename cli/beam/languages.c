@@ -264,19 +264,15 @@ static const struct {
       ".svg and .png. If gnuplot fails on a picture, a warning names it and only that picture is "
       "missing; the exit code is that of the results. The NAME of a scene is that of its file, at "
       "most 100 bytes, where _ replaces all but letters, digits, blanks and _ . - +.",
-      "The files of one run are a set. The list .beamrate-set says which files of its folder are "
-      "results, a line each: the number of the set, the size in bytes, the time of writing in ns "
-      "since 1970, and the name. New files are written in the hidden folder .beamrate-new, under "
-      "the lock of .beamrate-lock: a second program that would write there is refused. Then the "
-      "new list is put into the hidden folder: from now on the new set counts. The "
-      "files are renamed into place, old ones are removed, and the new list replaces the old one "
-      "last. A program that is killed before the new set counts leaves the old set; if it is "
-      "killed later, the next command with the same folder completes the new set first. A new set "
-      "takes the place of those with which it shares a file's name; their other files are removed, "
-      "unless somebody has changed them. A file that is not listed, or whose size or time is not "
-      "the listed one, is never replaced: if it is in the way, the results go into the folder "
-      "set-1 beside it (or the next free number), and the exit code is 3. An edit that keeps size "
-      "and time is not detected; a copy of a folder that has not kept the times counts as edited.",
+      "A folder holds the files of one run, a set. The list .beamrate-set names them, a line each. "
+      "New files are written in the hidden folder .beamrate-new, under the lock of .beamrate-lock: "
+      "a second program that would write there is refused. Then the new list is put into the "
+      "hidden folder: from now on the new set counts. The files are renamed into place, the other "
+      "files of the old set are removed, and the new list replaces the old one last. A program "
+      "that is killed before the new set counts leaves the old set; if it is killed later, the "
+      "next command with the same folder completes the new set first. A file that the list does "
+      "not name is never replaced or removed: if it is in the way, the results go into the folder "
+      "set-1 beside it (or the next free number), and the exit code is 3.",
       "Installed: share/beamrate/study/scenes (the bundled scenes), "
       "and the completions of bash, zsh and fish."}},
     {"ENVIRONMENT",

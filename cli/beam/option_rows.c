@@ -151,13 +151,6 @@ static const struct br_option rows[] = {
          "A valid scene, with the meaning, unit and default of each key. An existing file is not "
          "replaced."},
 
-    /* what is kept */
-    {BR_OPT_RESUME, "resume", 0, NULL, "use finished work that is kept in the folder of --out",
-     NULL, BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
-     .more = "After an interruption, or for a larger grid: finished cells and trials are kept in "
-             "DIR/.kept, and only the others are marched. Work that another version of the program "
-             "or another machine has kept is not used."},
-
     /* another scene */
     {BR_OPT_SET, "set", 0, "KEY=VALUE",
      "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,

@@ -229,7 +229,7 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
     if (r->record.rows > 1)
         br_session_draw(r->session, d, br_history_draw(&r->plan.opened.scene, &r->record), NULL);
     const bool failed = (summary && br_document_print(summary, &br_document_json, d, NULL, err)) ||
-                        (terminal && !r->session->quiet && br_document_show(terminal, d, err)) ||
+                        (terminal && !r->session->quiet && br_document_show(terminal, d, 1, err)) ||
                         (r->out && write_results(r, stopped, err)) ||
                         br_whole_file_commit(&r->summary, err);
     return failed ? err->status : BR_OK;

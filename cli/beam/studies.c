@@ -7,7 +7,6 @@
 #include "cli/progress.h"
 #include "reference/printed.h"
 #include "study/grid/sweep.h"
-#include "study/kept/kept_study.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 
@@ -164,17 +163,6 @@ enum br_status br_studies_check_memory(const struct br_studies *r, struct br_err
                                 : BR_OK;
 }
 
-enum br_status br_studies_keep(struct br_studies *r, struct br_error *err)
-{
-    for (size_t i = 0; i < r->jobs; i++)
-        if (br_session_keep(r->session, &r->work[i].kept, err))
-            return err->status;
-    for (size_t h = 0; h < r->heads && *r->work->kept.folder; h++)
-        for (struct br_study *s = study_of(r, h, 0); s; s = s->next_norm)
-            s->engine = br_kept_engine(&r->work[h % r->jobs].kept);
-    return BR_OK;
-}
-
 /* ---- the marches, and what follows from them ---- */
 
 enum br_status br_studies_compute(struct br_studies *r, struct br_error *err)
@@ -194,11 +182,9 @@ enum br_status br_studies_compute(struct br_studies *r, struct br_error *err)
         for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
             status = br_apart_settle(&w->apart, w->report, norms, axis, threads, observer, err);
     br_progress_end();
-    for (struct br_study_work *w = r->work; w < end; w++) {
-        br_session_report_kept(r->session, &w->kept);
+    for (struct br_study_work *w = r->work; w < end; w++)
         for (size_t m = 0; m < norms; m++)
             w->report[m].wall_seconds = br_seconds() - start;
-    }
     return br_progress_result(status, err);
 }
 

@@ -20,7 +20,6 @@ struct br_study_job {
 struct br_study_work {
     struct br_opened_scene opened;
     size_t *steps; /* numbers of steps of the grid, ascending; owned */
-    struct br_kept kept;
     struct br_apart apart;
     char name[BR_MOST_NORMS][512];          /* of the reports */
     struct br_report report[BR_MOST_NORMS]; /* request.norms of them */
@@ -47,9 +46,6 @@ void br_studies_foresee(const struct br_studies *studies, struct br_foreseen *wo
 
 /* Checks the memory of the studies, which march at once. */
 enum br_status br_studies_check_memory(const struct br_studies *studies, struct br_error *err);
-
-/* Finished cells are kept with their scene; the differences of neighbours are not. */
-enum br_status br_studies_keep(struct br_studies *studies, struct br_error *err);
 
 /* Marches all and finishes the reports. */
 enum br_status br_studies_compute(struct br_studies *studies, struct br_error *err);

@@ -40,7 +40,7 @@ static enum br_status run_jobs(const struct br_study_request *request, struct br
         br_studies_foresee(&r, &work);
         br_session_announce(session, &work);
         failed = br_studies_check_memory(&r, err) || br_session_open(session, err) ||
-                 br_studies_keep(&r, err) || (writes && br_warn_of_studies(r.study, jobs, err)) ||
+                 (writes && br_warn_of_studies(r.study, jobs, err)) ||
                  br_studies_compute(&r, err) || (writes && write_all(&r, err)) ||
                  br_studies_check_cells(&r, err);
     }

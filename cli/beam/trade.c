@@ -22,7 +22,6 @@ struct item {
     struct br_opened_scene opened;
     size_t *steps; /* as --k has them; owned */
     struct br_trade trade;
-    struct br_kept kept;
 };
 
 struct run {
@@ -227,18 +226,11 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     if (!status)
         status = br_trade_run(trade, err);
     br_progress_end();
-    br_session_report_kept(r->session, &item->kept);
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 
 static enum br_status run_all(struct run *r, struct br_error *err)
 {
-    for (size_t i = 0; i < r->items; i++) {
-        struct item *item = &r->item[i];
-        if (br_session_keep(r->session, &item->kept, err))
-            return err->status;
-        item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
-    }
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
         if (!br_trade_has_goal(t))
@@ -307,8 +299,7 @@ static enum br_status check(const struct run *r, struct br_error *err)
 static enum br_status check_split(const struct br_options *o, struct br_error *err)
 {
     static const enum br_option_id others[] = {BR_OPT_TIME_LIMIT, BR_OPT_ERROR,     BR_OPT_SECONDS,
-                                               BR_OPT_ALL,        BR_OPT_REFERENCE, BR_OPT_RESUME,
-                                               BR_OPTIONS};
+                                               BR_OPT_ALL,        BR_OPT_REFERENCE, BR_OPTIONS};
     const char *other = br_first_given(o, others);
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not use it", other);

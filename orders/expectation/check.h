@@ -9,6 +9,7 @@
 struct br_check {
     /* in; borrowed */
     const char *path; /* of the source, for messages */
+    bool no_file;     /* the path is a word for --run or standard input */
     const char *name;
     bool of_program;  /* the numbers are a program's or a table's, whose work is not known */
     char problem[40]; /* a hash of what is solved, for comparisons; "": none */

@@ -9,6 +9,8 @@
 
 /* ---- the text ---- */
 
+enum { MOST = 2000 }; /* more than two for each column of a table */
+
 static enum br_status refuse(const char *at, const char *expected, struct br_error *err)
 {
     return br_fail(err, BR_BAD_INPUT, "found '%.30s', expected %s, as in 'l2: h 2 +- 0.1'", at,
@@ -57,13 +59,15 @@ static enum br_status take_order(const char **at, struct br_order_expectation *e
 
 static enum br_status take_name(const char **at, char name[64], struct br_error *err)
 {
-    const char *colon = strchr(*at, ':');
-    size_t length = colon ? (size_t)(colon - *at) : 0;
-    while (length && strchr(" \t\n", (*at)[length - 1]))
-        length--;
-    if (length == 0 || length > 63)
+    const char *name_at = *at, *colon = br_list_quoted(&name_at);
+    size_t length = colon ? (size_t)(colon - 1 - name_at) : 0;
+    colon = colon ? br_skip_word(colon, "") : strchr(*at, ':');
+    if (!length && colon)
+        for (length = (size_t)(colon - *at); length && strchr(" \t\n", (*at)[length - 1]);)
+            length--;
+    if (length == 0 || length > 63 || *colon != ':')
         return refuse(*at, "a name of at most 63 bytes and ':'", err);
-    snprintf(name, 64, "%.*s", (int)length, *at);
+    snprintf(name, 64, "%.*s", (int)length, name_at);
     *at = br_skip_word(colon, ":");
     return BR_OK;
 }
@@ -82,6 +86,9 @@ enum br_status br_expectations_read(const char *text, size_t line,
         memcpy(all, *expectations, *count * sizeof *all);
     free(*expectations);
     *expectations = all;
+    if (most > MOST)
+        return br_fail(err, BR_BAD_INPUT, "found %zu expected orders, expected at most %d", most,
+                       MOST);
     const char *at = br_skip_word(text, "");
     char name[64] = "";
     for (bool goes_on = true, named = false; goes_on;) {

@@ -354,23 +354,63 @@ class Orders(_Handle):
             raise AssertionError("\n".join(failures))
 
     def plot(self, axes=None):
-        """Draws errors, or differences of values, over the size, with the line of each order and its
-        band; hollow: left out. Needs matplotlib. Returns the axes."""
+        """Draws the errors over the size, with the line of each order and its band; hollow: left out. And
+        each column of values over the size, with its limit and grid convergence index. Needs matplotlib.
+        axes: as many as that takes. Returns them: one, or a list."""
+        drawn = [q for q in self.quantities if q.points]
+        errors = [q for q in drawn if not q.is_value]
+        groups = ([errors] if errors else []) + [[q] for q in drawn if q.is_value]
+        if not groups:
+            raise BadInput("there are no three sizes of one line")
         if axes is None:
             import matplotlib.pyplot
-            axes = matplotlib.pyplot.subplots()[1]
-        for i, q in enumerate(q for q in self.quantities if q.points):
+            axes = matplotlib.pyplot.subplots(1, len(groups), squeeze=False, figsize=(6.4 * len(groups), 4.8))[1]
+        axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
+        if len(axes) < len(groups):
+            raise BadInput(f"axes: found {len(axes)}, expected a list of {len(groups)}")
+        for one, group in zip(axes, groups):
+            (self._plot_value if group[0].is_value else self._plot_errors)(one, group)
+            one.legend()
+        return axes[0] if len(axes) == 1 else axes
+
+    def _plot_errors(self, axes, group):
+        for i, q in enumerate(group):
             size = [p.size for p in q.points]
             for hollow in (False, True):
                 drawn = [p for p in q.points if bool(p.left_out) == hollow]
-                axes.plot([p.size for p in drawn], [p.error for p in drawn], "o", color=f"C{i}",
+                axes.plot([p.size for p in drawn], [p.error for p in drawn], "os^Dv"[i % 5], color=f"C{i}",
                           fillstyle="none" if hollow else "full", label=None if hollow else repr(q))
             axes.plot(size, [p.fit.value for p in q.points], color=f"C{i}")
             axes.fill_between(size, [p.fit.low for p in q.points], [p.fit.high for p in q.points],
                               color=f"C{i}", alpha=0.2)
-        axes.set(xscale="log", yscale="log", xlabel="size", ylabel="error, or difference of values")
-        axes.legend()
-        return axes
+        axes.set(xscale="log", yscale="log", xlabel="size", ylabel="error", title="\n".join(map(repr, group[:2])))
+        if len(size) <= 8:
+            axes.set(xticks=size, xticklabels=[f"{s:.3g}" for s in size])
+            axes.minorticks_off()
+
+    def _plot_value(self, axes, group):
+        letter = "hk"[group[0]._axes[0]]
+        rows = [row for row in group[0].rows if row["value"] is not None]
+        if len(group[0]._axes) == 2:  # the line at the finest time step
+            rows = [row for row in rows if row["size_k"] == min(r["size_k"] for r in rows)]
+        size, value = [row["size_" + letter] for row in rows], [row["value"] for row in rows]
+        row = [r for r in self.report["tables"]["limits"] if r["quantity"] == group[0].name and r["in"] == letter][-1]
+        title, end = [], row["phi_ext"]
+        axes.plot(size, value, "o", color="C0", label=group[0].name)
+        if row["gci_fine"] is not None:
+            title.append(f"p = {row['p']:.2f}, GCI {100 * row['gci_fine']:.2g} %")
+            axes.errorbar(size[-1:], value[-1:], yerr=abs(row["gci_fine"] * value[-1]), color="0.2", capsize=5,
+                          label="GCI of the finest value")
+        if row["low"] is None:
+            title.append(f"no limit: {row['sequence']}")
+        else:
+            title.append(f"limit {row['limit']:.6g} [{row['low']:.6g}, {row['high']:.6g}]")
+            axes.errorbar([0], [row["limit"]], yerr=[[row["limit"] - row["low"]], [row["high"] - row["limit"]]],
+                          fmt="o", color="0.2", fillstyle="none", capsize=5, label="limit, with its 95 % interval")
+        if row["low"] is not None and end is not None and row["of_three"] == "monotone convergence":
+            at = max(size) * np.linspace(0, 1, 61) ** max(1, 1 / row["p"])
+            axes.plot(at, end + (value[-1] - end) * (at / size[-1]) ** row["p"], color="C0")
+        axes.set(xlabel=f"size {letter}", ylabel=group[0].name, title=f"{group[0].name}: " + "\n".join(title))
 
 
 # ---- orders of a table ----

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program is a child of a keeper, a child of this process that does nothing but wait. The
- * keeper is a subreaper: what the program leaves behind, in any session, becomes a child of the
- * keeper, which kills it. The kernel signals the keeper when this process is gone. Only where the
- * keeper is killed, too, can something be left: the kernel then kills the program, but not what it
- * started. */
+/* The kernel watches in place of a process of ours. The group of a program holds one end of a pipe,
+ * and this process holds the other. When that closes, because this process is gone, the first end
+ * has an event, for which the kernel sends the group the signal that F_SETSIG chose. A program may
+ * close files that it does not know, so it has PR_SET_PDEATHSIG, too.
+ *
+ * _Fork runs no handlers of pthread_atfork: those of foreign libraries (OpenBLAS) wait for their
+ * locks, which another thread may hold for ever. */
 #include "orders/program/process.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
@@ -13,20 +16,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
+#include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-/* What the keeper is told by signals. */
-enum { TERMINATE = SIGTERM, KILL_ALL = SIGUSR1 };
+#define RUN "beamrate-run-" /* names of folders begin so */
+enum { ABOVE_SHELLS = 10 /* scripts use the files below it */ };
 
 static void pause_briefly(void)
 {
     nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
+
+static void close_if_open(int file)
+{
+    if (file >= 0)
+        close(file);
+}
+
+/* ---- folders ---- */
 
 static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
 {
@@ -37,146 +48,105 @@ static int remove_one(const char *path, const struct stat *info, int type, struc
     return 0;
 }
 
-void br_remove_folder(const char *folder)
+void br_remove_folder(const char *path)
 {
-    for (int tries = 0; tries < 20 && *folder && access(folder, F_OK) == 0; tries++) {
+    for (int tries = 0; tries < 20 && access(path, F_OK) == 0; tries++) {
         for (int i = 0; i < 10 && tries > 0; i++)
             pause_briefly();
-        nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
+        nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
     }
+}
+
+/* Opens a folder and locks it for as long as this process lives. */
+static int hold(const char *path, bool *locked)
+{
+    const int file = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    *locked = file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0;
+    return file;
+}
+
+const char *br_temporary(void)
+{
+    const char *set = getenv("TMPDIR");
+    return set && *set ? set : "/tmp";
+}
+
+void br_run_folders_clean(void)
+{
+    char path[PATH_MAX];
+    DIR *all = opendir(br_temporary());
+    for (struct dirent *old; all && (old = readdir(all));) {
+        bool locked = false;
+        struct stat info;
+        const int length = snprintf(path, sizeof path, "%s/%s", br_temporary(), old->d_name);
+        if (strncmp(old->d_name, RUN, strlen(RUN)) != 0 || length >= (int)sizeof path)
+            continue;
+        const int file = hold(path, &locked);
+        if (locked && fstat(file, &info) == 0 && info.st_uid == geteuid() &&
+            time(NULL) - info.st_mtim.tv_sec > 60) /* a new one is not locked for a moment */
+            br_remove_folder(path);
+        close_if_open(file);
+    }
+    if (all)
+        closedir(all);
+}
+
+int br_run_folder_make(struct br_run_folder *f)
+{
+    bool locked; /* not every file system has locks */
+    const int length = snprintf(f->path, sizeof f->path, "%s/" RUN "XXXXXX", br_temporary());
+    f->file = -1;
+    if (length >= (int)sizeof f->path)
+        return ENAMETOOLONG;
+    if (mkdtemp(f->path))
+        f->file = hold(f->path, &locked);
+    return f->file < 0 ? errno : 0;
+}
+
+bool br_run_folder_stays(struct br_run_folder *f, char path[PATH_MAX])
+{
+    char link[64];
+    struct stat info;
+    br_remove_folder(f->path);
+    const bool stays = fstat(f->file, &info) == 0 && info.st_nlink > 0;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", f->file);
+    const ssize_t length = readlink(link, path, PATH_MAX - 1); /* where it is now */
+    path[length > 0 ? length : 0] = '\0';
+    close(f->file);
+    return stays;
 }
 
 /* ---- in the program's process, until it is the program ---- */
 
-/* Signals that beamrate ignores would stay ignored. */
-_Noreturn static void become(const struct br_process *p, pid_t keeper)
+/* Asks for SIGKILL to the group when the other end of the pipe closes. Where the kernel has no such
+ * signal, the program alone dies with its parent. */
+static bool die_with(int alive, pid_t parent)
 {
-    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD};
+    const int held = fcntl(alive, F_DUPFD, ABOVE_SHELLS); /* not closed by execve */
+    const bool grouped = setpgid(0, 0) == 0;
+    if (held >= 0 && fcntl(held, F_SETOWN, -getpid()) == 0 && fcntl(held, F_SETSIG, SIGKILL) == 0)
+        fcntl(held, F_SETFL, O_ASYNC);
+    return grouped && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == parent;
+}
+
+/* Signals that beamrate ignores would stay ignored. */
+_Noreturn static void become(const struct br_process *p, pid_t parent, int alive, int report)
+{
+    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ};
     sigset_t none;
     sigemptyset(&none);
     for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
         signal(usual[i], SIG_DFL);
     const int input = open("/dev/null", O_RDONLY);
-    if (setpgid(0, 0) == 0 && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == keeper &&
-        chdir(p->end->folder) == 0 && dup2(input, 0) == 0 && dup2(p->output[0], 1) == 1 &&
-        dup2(p->output[1], 2) == 2 && sigprocmask(SIG_SETMASK, &none, NULL) == 0) {
+    if (die_with(alive, parent) && fchdir(p->folder) == 0 && dup2(input, 0) == 0 &&
+        dup2(p->output[0], 1) == 1 && dup2(p->output[1], 2) == 2 &&
+        sigprocmask(SIG_SETMASK, &none, NULL) == 0) {
         if (input > 2)
             close(input);
         execve(p->program, p->word, p->environment);
     }
-    p->end->failure = errno;
-    _exit(127);
-}
-
-/* ---- in the keeper ---- */
-
-static void kill_children(void)
-{
-    char text[4096];
-    const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-    const ssize_t length = file >= 0 ? read(file, text, sizeof text - 1) : 0;
-    text[length > 0 ? length : 0] = '\0';
-    char *rest = text;
-    for (long child; (child = strtol(rest, &rest, 10)) > 0;)
-        if (!rest[0] || strchr(" \n", rest[0])) /* else the number may be cut off */
-            kill((pid_t)child, SIGKILL);
-    if (file >= 0)
-        close(file);
-}
-
-/* Buries a child that has ended. 0: none has; below 0: there is none. */
-static pid_t bury(const struct br_process *p, pid_t program)
-{
-    int status;
-    struct rusage usage;
-    const pid_t ended = wait4(-1, &status, WNOHANG, &usage);
-    if (ended == program) {
-        p->end->status = status;
-        p->end->usage = usage;
-    }
-    return ended;
-}
-
-/* Kills all children until there are none: those of a dead child become the keeper's. A kernel that
- * does not list them leaves those that have left the program's group. */
-static void kill_all(const struct br_process *p, pid_t program)
-{
-    const bool listed = access("/proc/thread-self/children", R_OK) == 0;
-    if (!listed)
-        kill(-program, SIGKILL);
-    kill_children();
-    for (pid_t ended; (ended = bury(p, program)) >= 0;) {
-        if (ended == 0 && !listed && kill(-program, 0) != 0)
-            break;
-        if (ended == 0)
-            pause_briefly();
-        kill_children();
-    }
-}
-
-/* Copies a regular file of the program's folder; of any other nothing. */
-static void copy_file(const struct br_process *p, size_t i)
-{
-    char block[1 << 14];
-    struct stat info;
-    const int folder = open(p->end->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const int from = openat(folder, p->file[i], O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
-    size_t copied = 0;
-    for (ssize_t got = from >= 0 && fstat(from, &info) == 0 && S_ISREG(info.st_mode);
-         got > 0 && copied <= p->most; copied += (size_t)got) {
-        got = read(from, block, sizeof block);
-        if (got > 0 && write(p->copy[i], block, (size_t)got) != got)
-            got = -1;
-    }
-    if (from >= 0)
-        close(from);
-    if (folder >= 0)
-        close(folder);
-}
-
-static bool make_folder(const char *where, char folder[PATH_MAX])
-{
-    const int length = snprintf(folder, PATH_MAX, "%s/beamrate-XXXXXX", where);
-    errno = ENAMETOOLONG;
-    if (length < PATH_MAX && mkdtemp(folder))
-        return true;
-    folder[0] = '\0'; /* so that it is not removed */
-    return false;
-}
-
-/* All signals are blocked. */
-_Noreturn static void keep(const struct br_process *p, pid_t parent, const sigset_t *all)
-{
-    const pid_t keeper = getpid();
-    signal(SIGCHLD, SIG_DFL);
-    setpgid(0, 0);
-    prctl(PR_SET_NAME, "keeper"); /* "killall beamrate" does not mean it */
-    const bool watches =
-        prctl(PR_SET_CHILD_SUBREAPER, 1) == 0 && prctl(PR_SET_PDEATHSIG, KILL_ALL) == 0;
-    const pid_t program =
-        watches && getppid() == parent && make_folder(p->where, p->end->folder) ? fork() : -1;
-    if (program == 0)
-        become(p, keeper);
-    const bool failed = program < 0;
-    if (failed)
-        p->end->failure = errno;
-    else
-        setpgid(program, program); /* now, or it has done so */
-    for (bool over = failed; !over;) {
-        const int number = sigwaitinfo(all, NULL);
-        if (number == TERMINATE)
-            kill(-program, SIGTERM);
-        over = number == KILL_ALL;
-        for (pid_t ended; number == SIGCHLD && !over && (ended = bury(p, program)) > 0;)
-            over = ended == program;
-    }
-    if (!failed)
-        kill_all(p, program);
-    for (size_t i = 0; i < p->files && !failed; i++)
-        copy_file(p, i);
-    br_remove_folder(p->end->folder);
-    p->end->known = true;
-    _exit(0);
+    const int failure = errno;
+    _exit(write(report, &failure, sizeof failure) == sizeof failure ? 127 : 126);
 }
 
 /* ---- in this process ---- */
@@ -184,49 +154,56 @@ _Noreturn static void keep(const struct br_process *p, pid_t parent, const sigse
 int br_process_start(struct br_process *p)
 {
     const pid_t self = getpid();
+    int alive[2] = {-1, -1}, report[2] = {-1, -1};
     sigset_t all, old;
-    void *shared =
-        mmap(NULL, sizeof *p->end, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared == MAP_FAILED)
-        return errno;
-    p->end = shared;
     sigfillset(&all);
+    p->id = -1;
     pthread_sigmask(SIG_SETMASK, &all, &old);
-    p->keeper = fork();
+    if (pipe2(alive, O_CLOEXEC) == 0 && pipe2(report, O_CLOEXEC | O_NONBLOCK) == 0)
+        p->id = _Fork();
     const int failure = errno;
-    if (p->keeper == 0)
-        keep(p, self, &all);
+    if (p->id == 0)
+        become(p, self, alive[0], report[1]);
     pthread_sigmask(SIG_SETMASK, &old, NULL);
-    if (p->keeper > 0)
+    close_if_open(alive[0]);
+    close_if_open(report[1]);
+    p->alive = alive[1];
+    p->report = report[0];
+    if (p->id > 0)
         return 0;
-    munmap(p->end, sizeof *p->end);
+    close_if_open(p->alive);
+    close_if_open(p->report);
     return failure;
 }
 
-/* The keeper stays a zombie until the wait, so that no other process gets its number. */
+/* It stays a zombie until the end, so that no other group gets its number. */
 bool br_process_has_ended(const struct br_process *p)
 {
     siginfo_t info = {.si_pid = 0};
-    const int failed = waitid(P_PID, (id_t)p->keeper, &info, WEXITED | WNOHANG | WNOWAIT);
+    const int failed = waitid(P_PID, (id_t)p->id, &info, WEXITED | WNOHANG | WNOWAIT);
     return failed ? errno != EINTR : info.si_pid != 0;
 }
 
-void br_process_terminate(const struct br_process *p)
+bool br_process_signal(const struct br_process *p, int number)
 {
-    kill(p->keeper, TERMINATE);
+    return kill(-p->id, number) == 0 || errno != EPERM;
 }
 
-void br_process_kill(const struct br_process *p)
+struct br_process_end br_process_end(struct br_process *p)
 {
-    kill(p->keeper, KILL_ALL);
-    kill(p->keeper, SIGCONT); /* the program may have stopped it */
-}
-
-struct br_process_end br_process_wait(struct br_process *p)
-{
-    while (waitpid(p->keeper, NULL, 0) < 0 && errno == EINTR)
-        ;
-    const struct br_process_end end = *p->end;
-    munmap(p->end, sizeof *p->end);
+    struct br_process_end end = {0};
+    br_process_signal(p, SIGKILL);
+    const pid_t ended = wait4(p->id, &end.status, WNOHANG, &end.usage);
+    end.known = ended == p->id;
+    int left = kill(-p->id, 0);
+    for (int i = 0; i < 50 && left == 0 && ended != 0; i++) { /* what was killed needs a moment */
+        pause_briefly();
+        left = kill(-p->id, 0);
+    }
+    end.survives = ended == 0 || (left != 0 && errno == EPERM);
+    if (read(p->report, &end.failure, sizeof end.failure) != sizeof end.failure)
+        end.failure = 0;
+    close(p->alive);
+    close(p->report);
     return end;
 }

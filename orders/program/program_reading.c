@@ -246,7 +246,8 @@ static const char *skip_brackets(const char *at)
     at += at[1] == '^' ? 2 : 1;
     for (at += *at == ']'; *at && *at != ']'; at++)
         if (*at == '[' && at[1] && strchr(":.=", at[1])) { /* [:alpha:], [.a.], [=a=] */
-            const char *end = strstr(at + 2, (char[]){at[1], ']', '\0'});
+            const char closing[] = {at[1], ']', '\0'};
+            const char *end = strstr(at + 2, closing);
             at = end ? end + 1 : at + strlen(at) - 1;
         }
     return at;

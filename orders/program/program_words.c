@@ -7,8 +7,10 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <wordexp.h>
 
 #include "base/quote.h"
+#include "base/words.h"
 #include "orders/request.h"
 
 enum {
@@ -16,18 +18,6 @@ enum {
     SHOWN = 200  /* bytes of foreign text in a message */
 };
 
-/* Prints counts without a point, and sizes with as few digits as they need. */
-static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
-{
-    snprintf(text, NUMBER, "%.0f", x);
-    for (int digits = 1; column->is_size && digits <= 17; digits++) {
-        snprintf(text, NUMBER, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
-    }
-}
-
-/* A command that is split into words. */
 struct split {
     const struct br_orders_request *request;
     const struct br_numbers_row *row;
@@ -55,7 +45,11 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
         if (!column)
             continue;
         if (strncmp(s->rest + 1, column->name, length) == 0 && s->rest[1 + length] == '}') {
-            print_number(column, s->row->given[i], *to);
+            const double x = s->row->given[i];
+            if (column->is_size)
+                br_shortest(x, *to, NUMBER);
+            else /* counts have no exponent */
+                snprintf(*to, NUMBER, "%.0f", x);
             *to += strlen(*to);
             s->rest += length + 2;
             s->used[i] = true;
@@ -67,56 +61,99 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
                    br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
 }
 
-/* Refuses what only a shell does, and says how to start one. */
-static enum br_status refuse_shell(const struct split *s, const char *here, const char *sign,
-                                   int length, struct br_error *err)
+/* A copy with each brace replaced. The text for a brace has no blanks. NULL: see *err. */
+static char *fill(struct split *s, const char *text, struct br_error *err)
 {
-    char shown[SHOWN], folder[SHOWN];
-    const bool quotes = strchr(s->request->command, '\'');
-    br_quoted(shown, sizeof shown, &br_for_text, s->request->command);
-    br_quoted(folder, sizeof folder, &br_for_text, here);
-    return quotes ? br_fail(err, BR_BAD_INPUT,
-                            "the command has '%.*s', and no shell is used: put the command into a "
-                            "script, or '%.*s' into quotes",
-                            length, sign, length, sign)
-                  : br_fail(err, BR_BAD_INPUT,
-                            "the command has '%.*s', and no shell is used; to use one: sh -c 'cd "
-                            "%s && %s'",
-                            length, sign, folder, shown);
+    char *filled = br_allocate(strlen(text) + 1, NUMBER), *to = filled;
+    if (!filled)
+        br_no_memory(err, "the words of a command");
+    for (s->rest = text; filled && *s->rest;)
+        if (*s->rest != '{')
+            *to++ = *s->rest++;
+        else if (replace(s, &to, err)) {
+            free(filled);
+            filled = NULL;
+        }
+    return filled;
 }
 
-/* Takes the next word; there must be one. The text for a brace has no blanks and no quotes. */
-static enum br_status take_word(struct split *s, const char *here, char *to, struct br_error *err)
+/* ---- words, as the C library splits them for shells ---- */
+
+/* What wordexp would replace stands for itself: braces, patterns, and $1, which is meant for awk.
+ * The library sees other characters in their place. */
+static const char own[] = "{}*?[$", other[] = "\1\2\3\4\5\6";
+
+static bool is_variable(const char *sign)
 {
-    char quote = '\0'; /* the open one; zero: none */
-    while (*s->rest && (quote || !strchr(" \t\n", *s->rest))) {
-        const char c = *s->rest, next = s->rest[1];
-        const bool escape =
-            c == '\\' && next && (!quote || (quote == '"' && strchr("\"\\$`", next)));
-        const bool shell =
-            !quote && (strchr("|&;<>`", c) ||
-                       (c == '$' && (isalpha((unsigned char)next) || next == '(' || next == '{')));
-        if (shell)
-            return refuse_shell(s, here, s->rest, 1 + (c == next), err);
-        if (c == '{') {
-            if (replace(s, &to, err))
-                return err->status;
-            continue;
-        }
-        if (escape)
-            *to++ = next;
-        else if (c == quote)
-            quote = '\0';
-        else if (!quote && strchr("'\"\\", c)) /* a \ comes here only as the last character */
-            quote = c;
-        else
-            *to++ = c;
-        s->rest += 1 + escape;
-    }
-    *to = '\0';
-    return quote ? br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", quote)
-                 : BR_OK;
+    return isalpha((unsigned char)sign[1]) || (sign[1] && strchr("_(", sign[1]));
 }
+
+static void exchange(char *text, const char *from, const char *to)
+{
+    for (char *at = text; *at; at++) {
+        const char *found = strchr(from, *at);
+        if (found && !(*at == '$' && (is_variable(at) || (at > text && at[-1] == '\\'))))
+            *at = to[found - from];
+    }
+}
+
+/* Refuses what only a shell does, and says how to start one. */
+static enum br_status refuse_shell(const char *command, const char *here, const char *what,
+                                   struct br_error *err)
+{
+    char shown[SHOWN], folder[SHOWN];
+    const char *quote = strchr(here, ' ') ? "\"" : "";
+    if (strchr(command, '\''))
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "the command has %s, and no shell is used: put the command into a script, or "
+            "the sign into quotes",
+            what);
+    return br_fail(err, BR_BAD_INPUT,
+                   "the command has %s, and no shell is used; to use one: sh -c 'cd %s%s%s && %s'",
+                   what, quote, br_quoted(folder, sizeof folder, &br_for_text, here), quote,
+                   br_quoted(shown, sizeof shown, &br_for_text, command));
+}
+
+static enum br_status refuse_words(const char *command, const char *here, int failure,
+                                   struct br_error *err)
+{
+    if (failure == WRDE_BADCHAR)
+        return refuse_shell(command, here, "a sign of | & ; < > ( ) or a line end", err);
+    if (failure == WRDE_CMDSUB)
+        return refuse_shell(command, here, "$( or `", err);
+    if (failure == WRDE_BADVAL)
+        return br_fail(err, BR_BAD_INPUT,
+                       "the command has a variable that is not set; in '...' a $ is a $");
+    return failure == WRDE_SYNTAX
+               ? br_fail(err, BR_BAD_INPUT, "the command ends within quotes, or with a \\")
+               : br_no_memory(err, "the words of a command");
+}
+
+/* Splits the command into words (out; free them where this succeeds), with their braces. */
+static enum br_status take_words(const char *command, const char *here, wordexp_t *words,
+                                 struct br_error *err)
+{
+    size_t length = strlen(command);
+    if (command[strcspn(command, other)])
+        return br_fail(err, BR_BAD_INPUT, "the command has a control character, expected text");
+    while (length && strchr(" \t\n", command[length - 1])) /* the line end of a YAML block */
+        length--;
+    char *text = strndup(command, length);
+    if (!text)
+        return br_no_memory(err, "the words of a command");
+    exchange(text, own, other);
+    *words = (wordexp_t){0};
+    const int failure = wordexp(text, words, WRDE_NOCMD | WRDE_UNDEF);
+    free(text);
+    for (size_t i = 0; i < words->we_wordc && !failure; i++)
+        exchange(words->we_wordv[i], other, own);
+    if (failure == 0 || failure == WRDE_NOSPACE) /* the latter has some of the words */
+        return failure ? (wordfree(words), br_no_memory(err, "the words of a command")) : BR_OK;
+    return refuse_words(command, here, failure, err);
+}
+
+/* ---- files ---- */
 
 /* The whole path of a word that names a file in `here`, since the program runs in another folder;
  * any other word as it is. */
@@ -131,56 +168,72 @@ static char *whole_path(const char *here, const char *word)
     return path;
 }
 
-/* Finds the program as a shell does; relative paths, also those in PATH, are relative to `here`. */
+static bool is_program(const char *path)
+{
+    struct stat info;
+    return *path == '/' && stat(path, &info) == 0 && S_ISREG(info.st_mode) &&
+           access(path, X_OK) == 0;
+}
+
+/* The path of a program in PATH; NULL: no memory. It has to be known, since its runs are kept under
+ * its contents, and a change of it during a study is noticed. */
+static char *search(const char *here, const char *name)
+{
+    const char *folders = getenv("PATH"), *folder = folders ? folders : "/usr/bin:/bin";
+    char *path = strdup(name), *in;
+    while (path && *(folder += strspn(folder, ":")) && !is_program(path)) {
+        const int length = (int)strcspn(folder, ":");
+        free(path);
+        if (asprintf(&in, "%.*s/%s", length, folder, name) < 0)
+            return NULL;
+        path = whole_path(here, in);
+        free(in);
+        folder += length;
+    }
+    return path;
+}
+
 static enum br_status find_program(const char *here, const char *name, char **program,
                                    struct br_error *err)
 {
-    const char *folders = getenv("PATH");
-    char shown[SHOWN];
-    struct stat info;
     const bool direct = strchr(name, '/');
-    for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
-        const int length = (int)strcspn(f, ":");
-        const bool absolute = direct ? *name == '/' : *f == '/';
-        free(*program);
-        if (asprintf(program, "%s%s%.*s%s%s", absolute ? "" : here, absolute ? "" : "/", length, f,
-                     length ? "/" : "", name) < 0) {
-            *program = NULL;
-            return br_no_memory(err, "a program's path");
-        }
-        if (stat(*program, &info) == 0 && S_ISREG(info.st_mode) && access(*program, X_OK) == 0)
-            return BR_OK;
-        f = f[length] ? f + length + 1 : NULL;
-    }
-    free(*program);
-    if (asprintf(program, "%s%s%s", *name == '/' ? "" : here, *name == '/' ? "" : "/", name) < 0)
-        *program = NULL;
-    const bool here_too = *program && stat(*program, &info) == 0 && S_ISREG(info.st_mode);
-    return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s",
+    char shown[SHOWN], *file = whole_path(here, name);
+    const bool is_file = file && *file == '/' && access(file, F_OK) == 0;
+    *program = direct ? file : search(here, name);
+    if (!direct)
+        free(file);
+    if (!*program)
+        return br_no_memory(err, "a program's path");
+    if (is_program(*program))
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s%s",
                    br_quoted(shown, sizeof shown, &br_for_text, name),
-                   !direct ? here_too ? ", no folder of PATH has it; a file here needs ./ before it"
-                                      : ", no folder of PATH has it"
-                   : here_too ? ": it is not executable; chmod +x makes it so"
-                              : "");
+                   direct ? "" : ", no folder of PATH has it",
+                   !is_file ? ""
+                   : direct ? ": it is not executable; chmod +x makes it so"
+                            : "; a file here needs ./ before it");
 }
 
-/* word: a buffer for any word. */
-static enum br_status take_words(struct split *s, const char *here, char *word,
+/* ---- all ---- */
+
+static enum br_status fill_words(struct split *s, const char *here, const wordexp_t *words,
                                  struct br_command_words *c, struct br_error *err)
 {
-    for (size_t i = 0; *(s->rest += strspn(s->rest, " \t\n")); i++) {
-        const char *begin = s->rest;
-        const size_t name = strcspn(begin, "= \t\n'\"");
-        if (i == 0 && (strncmp(begin, "cd ", 3) == 0 || (name && begin[name] == '=')))
-            return refuse_shell(s, here, begin, (int)name + (begin[name] == '='), err);
-        if (take_word(s, here, word, err))
-            return err->status;
-        c->word[i] = i ? whole_path(here, word) : strdup(word);
-        if (!c->word[i])
-            return br_no_memory(err, "the words of a command");
-    }
-    if (!c->word[0] || !*c->word[0])
+    const char *const first = words->we_wordc ? words->we_wordv[0] : "";
+    const size_t name = strcspn(first, "=/");
+    if (!*first)
         return br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+    if (strcmp(first, "cd") == 0 || first[name] == '=')
+        return refuse_shell(s->request->command, here, first[name] ? "a variable to set" : "'cd'",
+                            err);
+    for (size_t i = 0; i < words->we_wordc; i++) {
+        char *word = fill(s, words->we_wordv[i], err);
+        c->word[i] = word && i > 0 ? whole_path(here, word) : word;
+        if (i > 0)
+            free(word);
+        if (!c->word[i])
+            return word ? br_no_memory(err, "the words of a command") : err->status;
+    }
     for (int i = 0; i < BR_AXES; i++)
         if (s->request->axis[i].column && !s->used[i])
             return br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
@@ -188,43 +241,26 @@ static enum br_status take_words(struct split *s, const char *here, char *word,
     return find_program(here, c->word[0], &c->program, err);
 }
 
-/* Takes the name of a file that a reading looks into. */
-static enum br_status take_file(struct split *s, const char *file, char *word,
+enum br_status br_command_split(const struct br_orders_request *r, const struct br_numbers_row *row,
                                 struct br_command_words *c, struct br_error *err)
 {
-    char *to = word;
-    for (s->rest = file; *s->rest;)
-        if (*s->rest != '{')
-            *to++ = *s->rest++;
-        else if (replace(s, &to, err))
-            return err->status;
-    *to = '\0';
-    c->file[c->files] = strdup(word);
-    return c->file[c->files++] ? BR_OK : br_no_memory(err, "what is read");
-}
-
-enum br_status br_command_split(const struct br_orders_request *request,
-                                const struct br_numbers_row *row, struct br_command_words *c,
-                                struct br_error *err)
-{
     char here[PATH_MAX]; /* the folder of relative names */
-    if (!(request->folder ? realpath(request->folder, here) : getcwd(here, sizeof here)))
+    struct split s = {r, row, NULL, {false}};
+    wordexp_t words;
+    if (!(r->folder ? realpath(r->folder, here) : getcwd(here, sizeof here)))
         return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
-    size_t most = strlen(request->command) + 1;
-    for (size_t i = 0; i < request->readings; i++)
-        if (request->reading[i].file && strlen(request->reading[i].file) >= most)
-            most = strlen(request->reading[i].file) + 1;
-    char *word = br_allocate(most, NUMBER);
-    struct split s = {request, row, .rest = request->command};
-    c->word = br_allocate(most + 1, sizeof *c->word);
-    c->file = br_allocate(request->readings + 1, sizeof *c->file);
-    enum br_status status = word && c->word && c->file
-                                ? take_words(&s, here, word, c, err)
-                                : br_no_memory(err, "the words of a command");
-    for (size_t i = 0; i < request->readings && !status; i++)
-        if (request->reading[i].file)
-            status = take_file(&s, request->reading[i].file, word, c, err);
-    free(word);
+    if (take_words(r->command, here, &words, err))
+        return err->status;
+    c->word = br_allocate(words.we_wordc + 1, sizeof *c->word);
+    c->file = br_allocate(r->readings + 1, sizeof *c->file);
+    enum br_status status = c->word && c->file ? fill_words(&s, here, &words, c, err)
+                                               : br_no_memory(err, "the words of a command");
+    wordfree(&words);
+    for (size_t i = 0; i < r->readings && !status; i++)
+        if (r->reading[i].file) {
+            c->file[c->files++] = fill(&s, r->reading[i].file, err);
+            status = c->file[c->files - 1] ? BR_OK : err->status;
+        }
     return status;
 }
 

@@ -2,6 +2,8 @@
 #include "orders/reading/columns.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct br_resolution_column br_resolution_columns[BR_RESOLUTIONS + 1] = {
@@ -47,5 +49,10 @@ double br_numbers_given(const struct br_resolution_column *column, double z, dou
     const double whole = round(given);
     if (column->is_size)
         return given;
+    if (given >= 1e15) { /* round-off has the last digits of a double */
+        char digits[32];
+        snprintf(digits, sizeof digits, "%.14e", given);
+        return strtod(digits, NULL);
+    }
     return fabs(given - whole) <= fmin(1e-9 * given, 0.1) ? whole : ceil(given);
 }

@@ -146,10 +146,13 @@ static enum br_status refuse_column(const struct br_roles *r, const char *option
 static enum br_status take_item(struct br_roles *r, const char *item, size_t length,
                                 struct br_error *err)
 {
-    const char *equals = item + length;
+    const char *equals = item + length, *inside = item, *quoted = br_list_quoted(&inside);
     while (equals > item && *equals != '=')
         equals--;
-    const size_t size = (size_t)(equals - item), rest = length - size;
+    const size_t rest = length - (size_t)(equals - item);
+    const bool in_quotes = quoted && quoted == equals;
+    item = in_quotes ? inside : item;
+    const size_t size = (size_t)(equals - item) - in_quotes;
     if (!size || rest < 2)
         return br_fail(err, BR_BAD_INPUT,
                        "--column: found '%.*s', expected COLUMN=NAME, as in dx=h or 1=h",
@@ -941,11 +944,11 @@ static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_
 static enum br_status settle_repeats(struct br_roles *r, struct run *run, size_t count,
                                      struct br_error *err)
 {
-    size_t repeats = 0, sizes = 0, least = count, at = 0;
+    size_t repeats = 0, least = count, at = 0;
     double scatter = 0;
     bool numbered = false;
     qsort(run, count, sizeof *run, by_run);
-    for (size_t first = 0, end; first < count; first = end, sizes++) {
+    for (size_t first = 0, end; first < count; first = end) {
         for (end = first + 1; end < count && is_one_size(&run[first], &run[end]);)
             end++;
         least = end - first < least ? end - first : least;

@@ -162,8 +162,9 @@ static bool has_orders(const struct br_report *r)
            r->seen[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
 }
 
-/* The errors, the fitted line, and its band. */
-static void add_order(const struct br_seen_order *o, const char *name, struct br_figure *f)
+/* The errors, the fitted line, and its band. Returns the errors. */
+static const struct br_series *add_order(const struct br_seen_order *o, const char *name,
+                                         struct br_figure *f)
 {
     const struct br_fitted_series s = br_fitted_series_add(f, name);
     for (const struct br_seen_point *p = o->point; p < o->point + o->points; p++)
@@ -171,6 +172,7 @@ static void add_order(const struct br_seen_order *o, const char *name, struct br
                             p->flag ? br_flag_name(p->flag) : NULL, p->fit.value, p->fit.low);
     for (size_t i = o->points; i-- > 0;)
         br_point_add(s.area, o->point[i].z, o->point[i].fit.high, NULL);
+    return s.marks;
 }
 
 /* Each part with what its order was found from, and the slopes of theory. */
@@ -178,21 +180,20 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
 {
     const struct br_study *s = r->fitted;
     const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
+    const enum br_part parts = both ? BR_PARTS : 1;
     const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
     const struct br_seen_order *total = &r->seen[BR_PART_TOTAL][axis];
     struct br_panel *p = add_panel(r, (int)axis, f);
-    double slope[BR_PARTS];
-    size_t slopes = 0;
+    const struct br_series *line[BR_PARTS];
     BR_SAY(p->y_label, "%s, or difference (%s)", s->norm->symbol, s->norm->unit_markup);
     BR_SAY(p->title, "%s", total->by);
     p->top.count = 0; /* the sizes of the order, not of the grid */
     for (size_t i = 0; i < total->points; i++)
         br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
-    for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++) {
-        add_order(&r->seen[part][axis], br_part_names[part], f);
-        slopes = br_slope_put(slope, slopes, r->seen[part][axis].theory.formal);
-    }
-    br_slopes_add(f, slopes, slope);
+    for (enum br_part part = 0; part < parts; part++)
+        line[part] = add_order(&r->seen[part][axis], br_part_names[part], f);
+    for (enum br_part part = 0; part < parts; part++)
+        br_slope_add(f, line[part], r->seen[part][axis].theory.formal);
 }
 
 static void fill_orders(const struct br_report *r, struct br_figure *f)

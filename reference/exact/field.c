@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/blas.h"
+
 enum { S = BR_STAGES };
 
 size_t br_modes_length(const struct br_modes *modes, size_t order)
@@ -36,9 +38,11 @@ static enum br_status decompose(struct br_modes *modes, struct br_error *err)
         for (size_t d = 0; d < modes->degree; d++)
             br_pieces_integrate(&modes->pieces, d, &b[j * rows]);
     }
+    br_blas_enter();
     const lapack_int info =
         LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'S', (lapack_int)rows, (lapack_int)m, b, (lapack_int)rows,
                        modes->size, modes->shape, (lapack_int)rows, modes->curve, (lapack_int)m);
+    br_blas_leave();
     free(b);
     if (info == LAPACK_WORK_MEMORY_ERROR)
         return br_no_memory(err, "the modes");
@@ -103,26 +107,37 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 
 /* ---- the field on its modes ---- */
 
+/* y = A' x; A has `rows` rows, by columns. */
+static void multiply_transposed(size_t rows, size_t columns, const double *a, const double *x,
+                                double *y)
+{
+    for (size_t j = 0; j < columns; j++) {
+        y[j] = 0;
+        for (size_t i = 0; i < rows; i++)
+            y[j] += a[j * rows + i] * x[i];
+    }
+}
+
 /* The displacement's energy projection, and the velocity's L2 projection. */
 static enum br_status set_initial(struct br_oscillators *f, struct br_error *err)
 {
     const struct br_modes *modes = &f->modes;
     const struct br_scene_field *d = f->data;
     const struct br_function *slope = br_initial_slope(d, modes->degree);
-    const int m = (int)modes->count, rows = (int)br_modes_length(modes, 0);
+    const size_t m = modes->count, rows = br_modes_length(modes, 0);
     const double scale = modes->degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
     double *c = f->load_series;
     enum br_status status = BR_OK;
     if (!br_function_is_zero(slope)) {
         status = br_quadrature_project_slope(&modes->quadrature, slope, c, err);
-        cblas_dgemv(CblasColMajor, CblasTrans, m, m, scale, modes->curve, m, c, 1, 0,
-                    f->displacement, 1); /* U' c */
+        multiply_transposed(m, m, modes->curve, c, f->displacement); /* U' c */
+        for (size_t i = 0; i < m; i++)
+            f->displacement[i] *= scale;
     }
     if (!status && !br_function_is_zero(&d->velocity)) {
         status = br_quadrature_project(&modes->quadrature, &d->velocity, 0, NULL, c, err);
-        cblas_dgemv(CblasColMajor, CblasTrans, rows, m, 1, modes->shape, rows, c, 1, 0, f->velocity,
-                    1);                           /* Y' c */
-        for (size_t i = 0; i < modes->count; i++) /* modes below round-off carry none */
+        multiply_transposed(rows, m, modes->shape, c, f->velocity); /* Y' c */
+        for (size_t i = 0; i < m; i++) /* modes below round-off carry none */
             f->velocity[i] *=
                 modes->size[i] > DBL_EPSILON * modes->size[0] ? 1 / modes->size[i] : 0;
     }

@@ -4,7 +4,6 @@
 #include <assert.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_legendre.h>
-#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
@@ -106,19 +105,72 @@ static enum br_status find_nodes(double node[S], struct br_error *err)
     return BR_OK;
 }
 
+static bool all_finite(size_t count, const double *x)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(x[i]))
+            return false;
+    return true;
+}
+
+static void exchange(size_t count, double *x, double *y)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double kept = x[i];
+        x[i] = y[i];
+        y[i] = kept;
+    }
+}
+
+/* y -= factor x */
+static void subtract(size_t count, double factor, const double *x, double *y)
+{
+    for (size_t i = 0; i < count; i++)
+        y[i] -= factor * x[i];
+}
+
+/* Gauss, with the largest entry of a column as its pivot. */
+enum br_status br_radau_solve(double a[S][S], size_t columns, double *b)
+{
+    if (!all_finite((size_t)S * S, &a[0][0]) || !all_finite(S * columns, b))
+        return BR_NOT_FINITE;
+    for (size_t k = 0; k < S; k++) {
+        size_t pivot = k;
+        for (size_t i = k + 1; i < S; i++)
+            pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
+        if (!(fabs(a[pivot][k]) > 0))
+            return BR_SINGULAR;
+        if (pivot != k) {
+            exchange(S, a[k], a[pivot]);
+            exchange(columns, &b[k * columns], &b[pivot * columns]);
+        }
+        for (size_t i = k + 1; i < S; i++) {
+            const double factor = a[i][k] / a[k][k];
+            subtract(S - k, factor, &a[k][k], &a[i][k]);
+            subtract(columns, factor, &b[k * columns], &b[i * columns]);
+        }
+    }
+    for (size_t k = S; k-- > 0;)
+        for (size_t j = 0; j < columns; j++) {
+            double *x = &b[k * columns + j];
+            for (size_t i = k + 1; i < S; i++)
+                *x -= a[k][i] * b[i * columns + j];
+            *x /= a[k][k];
+        }
+    return BR_OK;
+}
+
 /* The inverse of the matrix of p_k(c_j). Radau's weights would give it in closed
  * form, but are ten times more sensitive to the nodes' rounding. */
 static enum br_status invert(struct br_radau *r, struct br_error *err)
 {
     double value[S][S];
-    lapack_int pivot[S];
     for (size_t j = 0; j < S; j++) {
         br_legendre(S, r->node[j], value[j]);
         r->to_coefficients[j][j] = 1;
     }
-    const lapack_int info =
-        LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, S, &value[0][0], S, pivot, &r->to_coefficients[0][0], S);
-    return info ? br_no_memory(err, "the Radau nodes") : BR_OK;
+    const enum br_status status = br_radau_solve(value, S, &r->to_coefficients[0][0]);
+    return status ? br_fail(err, status, "the Radau nodes have no polynomials") : BR_OK;
 }
 
 enum br_status br_radau_init(struct br_radau *r, struct br_error *err)

@@ -46,6 +46,11 @@ enum br_status br_radau_init(struct br_radau *r, struct br_error *err);
 /* out[k] = coefficient k of the polynomial with the given values at the nodes. */
 void br_radau_fit(const struct br_radau *r, const double value[BR_STAGES], double out[BR_STAGES]);
 
+/* b = a \ b, b with `columns` columns, by rows; a is destroyed. BR_SINGULAR, or BR_NOT_FINITE where
+ * an entry of a or b is not. Of our own: what a BLAS does with so few numbers follows the machine.
+ */
+enum br_status br_radau_solve(double a[BR_STAGES][BR_STAGES], size_t columns, double *b);
+
 /* sum_k c_k b_k */
 static inline double br_radau_sum(const double c[BR_STAGES], const double b[BR_STAGES])
 {

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/blas.h"
+
 /* ---- a part of an interval ---- */
 
 /* Legendre series on [0, 1] as series on an interval of it. */
@@ -77,9 +79,11 @@ static enum br_status remainder_add(const struct remainder *m, size_t block, str
     const size_t rows = m->columns + block;
     if (!block)
         return BR_OK;
+    br_blas_enter();
     const lapack_int info =
         LAPACKE_dgeqrf(LAPACK_COL_MAJOR, (lapack_int)rows, (lapack_int)m->columns, m->a,
                        (lapack_int)(m->columns + m->block), m->tau);
+    br_blas_leave();
     for (size_t k = 0; k < m->columns; k++) /* the reflectors below the diagonal are not needed */
         memset(remainder_at(m, k + 1, k), 0, (rows - k - 1) * sizeof(double));
     if (info == LAPACK_WORK_MEMORY_ERROR)
@@ -116,7 +120,7 @@ struct run {
 
 struct br_piecewise {
     const struct br_exact_pieces *pieces; /* borrowed */
-    size_t extra, kept;             /* degree + 1 */
+    size_t extra, kept;                   /* degree + 1 */
     size_t elements;
     struct run *run;
     size_t runs, room;

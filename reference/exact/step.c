@@ -5,7 +5,6 @@
 
 #include <cblas.h>
 #include <float.h>
-#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
@@ -155,13 +154,14 @@ static double impulse(struct br_stepper *s)
 /* x = a \ x; a is destroyed */
 static enum br_status solve(double a[S][S], double x[S], struct br_error *err)
 {
-    lapack_int pivot[S];
-    const lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, 1, &a[0][0], S, pivot, x, 1);
-    if (info == LAPACK_TRANSPOSE_MEMORY_ERROR || info == LAPACK_WORK_MEMORY_ERROR)
-        return br_no_memory(err, "the tip's force");
-    if (info < 0) /* LAPACKE checks for NaN */
+    switch (br_radau_solve(a, 1, x)) {
+    case BR_OK:
+        return BR_OK;
+    case BR_NOT_FINITE:
         return br_fail(err, BR_NOT_FINITE, "the tip's force is not finite");
-    return info ? br_fail(err, BR_SINGULAR, "the tip's force is not determined") : BR_OK;
+    default:
+        return br_fail(err, BR_SINGULAR, "the tip's force is not determined");
+    }
 }
 
 /* force = c_H (d + h X (velocity - Z force)), d the tip less the gap */

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <suitesparse/umfpack.h>
 
+#include "base/blas.h"
 #include "solver/arithmetic.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/linear/states.h"
@@ -174,8 +175,10 @@ static enum br_status factorise_values(struct assembled *s, struct br_error *err
 {
     if (s->numeric)
         umfpack_di_free_numeric(&s->numeric);
+    br_blas_enter();
     const int result = umfpack_di_numeric(s->column, s->row, s->value, s->symbolic, &s->numeric,
                                           s->control, s->info);
+    br_blas_leave();
     return result == UMFPACK_OK ? check_definite(s, err) : failed(err, "the factorisation", result);
 }
 

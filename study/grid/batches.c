@@ -335,7 +335,7 @@ unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t
     br_state(&text, "cell-bytes", "%zu", sizeof(struct br_cell));
     for (size_t i = 0; i < count; i++)
         for (const struct br_study *s = &studies[i]; s; s = s->next_norm)
-            br_state_study(&text, s, SIZE_MAX);
+            br_state_study(&text, s);
     br_statement_end(&text);
     for (const char *c = text.text; c && *c; c++)
         hash = (hash ^ (unsigned char)*c) * 0x100000001b3ull;

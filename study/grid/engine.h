@@ -13,7 +13,6 @@ struct br_observer;
 struct br_engine {
     enum br_status (*march)(struct br_study *studies, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
-    void *self; /* its own, borrowed */
 };
 
 /* Marches in this process: reference and cells in lockstep, as tasks. See br_study_run_each. */

@@ -59,9 +59,8 @@ static void state_resolution(struct br_statement *s, struct br_resolution at)
     br_state(s, "steps", "%zu", at.steps);
 }
 
-void br_state_study(struct br_statement *s, const struct br_study *study, size_t cell)
+void br_state_study(struct br_statement *s, const struct br_study *study)
 {
-    const bool all = cell == SIZE_MAX;
     br_state_scene(s, study->scene);
     br_state(s, "norm", "%s", study->norm->name);
     br_state(s, "judge", "%s", study->judge->name);
@@ -69,18 +68,15 @@ void br_state_study(struct br_statement *s, const struct br_study *study, size_t
         state_resolution(s, study->reference);
         br_state_method(s, &study->reference_method);
     }
-    if (all)
-        br_state(s, "auditor", "%s", study->auditor ? study->auditor->name : "");
-    for (size_t c = all ? 0 : cell; c < (all ? br_study_cells(study) : cell + 1); c++) {
-        br_state(s, "cell", "%s", "");
+    br_state(s, "auditor", "%s", study->auditor ? study->auditor->name : "");
+    for (size_t c = 0; c < br_study_cells(study); c++) {
         state_resolution(s, br_study_resolution(study, c));
-        if (!all || c == 0 || study->cell_method)
+        if (c == 0 || study->cell_method)
             br_state_method(s, br_study_method(study, c));
     }
 }
 
 /* ---- over h and over k ---- */
-
 
 size_t br_axis_count(const struct br_study *s, int axis)
 {

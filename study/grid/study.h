@@ -85,9 +85,8 @@ size_t br_common_levels(size_t a, size_t b);
 double br_reference_step(const struct br_study *study);
 double br_reference_mesh(const struct br_study *study);
 
-/* All lines of a cell of a study in its norm, whatever the other cells are. Cell SIZE_MAX: of all
- * its cells and of what is measured of the reference. */
-void br_state_study(struct br_statement *statement, const struct br_study *study, size_t cell);
+/* All that a study asks in its norm. */
+void br_state_study(struct br_statement *statement, const struct br_study *study);
 
 /* ---- over h and over k ---- */
 

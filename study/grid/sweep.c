@@ -153,7 +153,7 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
     return status;
 }
 
-static struct br_engine usual = {br_lockstep, NULL};
+static struct br_engine usual = {br_lockstep};
 
 void br_engine_set(struct br_engine engine)
 {

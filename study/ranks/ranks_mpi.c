@@ -231,8 +231,7 @@ static enum br_status check_reports(struct br_error *err)
                                            job.report[r].failure.message);
     for (int r = 0; r < job.size; r++)
         if (job.report[r].ends != own->ends)
-            return br_fail(err, BR_IO, "rank %d ended too early",
-                           own->ends ? job.rank : r);
+            return br_fail(err, BR_IO, "rank %d ended too early", own->ends ? job.rank : r);
     for (int r = 0; r < job.size; r++)
         if (job.report[r].asked != first->asked)
             return br_fail(err, BR_BAD_INPUT,
@@ -528,7 +527,7 @@ static enum br_status join(const struct br_launch *launch, struct br_error *err)
     MPI_Comm_dup(MPI_COMM_WORLD, &job.comm); /* of this program's own, with the same handler */
     enum br_status status = count_threads(err);
     if (!status && !(status = create_window(err)))
-        br_engine_set((struct br_engine){march_together, NULL});
+        br_engine_set((struct br_engine){march_together});
     return status;
 }
 

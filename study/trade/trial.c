@@ -10,8 +10,6 @@
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/sweep.h"
-#include "study/kept/kept_study.h"
-#include "study/scene/statement.h"
 
 const char *const br_trial_end_names[BR_TRIAL_ENDS] = {
     [BR_TRIAL_DONE] = "done",         [BR_TRIAL_DOUBTFUL] = "doubtful",
@@ -218,88 +216,11 @@ static enum br_status repeat(struct br_trial *t, const struct br_trial_request *
     return status;
 }
 
-/* ---- kept ---- */
-
-static char *text_of(const struct br_trial *t, const struct br_trial_request *r)
-{
-    const struct br_method method = br_trial_method(t);
-    struct br_statement text;
-    br_kept_begin(r->kept, "trial", &text);
-    br_state_scene(&text, r->scene);
-    br_state_method(&text, &method);
-    br_state(&text, "n", "%zu", t->at.n);
-    br_state(&text, "steps", "%zu", t->at.steps);
-    br_state(&text, "repeats", "%zu", r->repeats);
-    br_state(&text, "repeat-seconds", "%a", r->repeat_seconds);
-    br_state(&text, "time-limit", "%a", r->time_limit);
-    return br_statement_end(&text);
-}
-
 /* One trial or more, and their request. */
 struct trials {
     struct br_trial *trial;
     const struct br_trial_request *request;
 };
-
-static void pass_cost(struct br_record *r, const struct trials *of)
-{
-    const size_t most = (size_t)1 << 53; /* of a count */
-    struct br_trial_cost *cost = &of->trial->cost;
-    br_record_number(r, &cost->set_up, 0, DBL_MAX);
-    br_record_number(r, &cost->march, 0, DBL_MAX);
-    br_record_count(r, &cost->repeats, 1, of->request->repeats);
-    br_record_count(r, &cost->levels, of->trial->at.steps, of->trial->at.steps);
-    br_record_count(r, &cost->counts.steps, 1, most);
-    br_record_count(r, &cost->counts.rejected, 0, most);
-    br_record_count(r, &cost->counts.stages, 0, most);
-    br_record_count(r, &cost->counts.iterations, 0, most);
-    br_record_count(r, &cost->counts.set_ups, 0, most);
-}
-
-/* The timing of a trial that is complete or over the limit. */
-static void pass_trial(struct br_record *r, void *self)
-{
-    const struct trials *of = self;
-    struct br_trial *t = of->trial;
-    bool over = t->end == BR_TRIAL_OVER;
-    char *why = t->failure.message;
-    br_record_count(r, &t->at.n, t->at.n, t->at.n);
-    br_record_flag(r, &over);
-    t->end = over ? BR_TRIAL_OVER : BR_TRIAL_DONE;
-    if (!over) {
-        pass_cost(r, of);
-        return;
-    }
-    br_record_text(r, &why, sizeof t->failure.message - 1);
-    if (why && why != t->failure.message) {
-        br_fail(&t->failure, BR_VERDICT, "%s", why);
-        free(why);
-    }
-}
-
-static bool take_kept(struct br_trial *t, const struct br_trial_request *r)
-{
-    struct br_trial found = *t;
-    if (!r->kept)
-        return false;
-    char *text = text_of(t, r);
-    const bool taken = br_kept_take(r->kept, text, pass_trial, &(struct trials){&found, r});
-    free(text);
-    if (taken) {
-        *t = found;
-        atomic_fetch_add(&r->kept->taken, 1);
-    }
-    return taken;
-}
-
-static void keep_trial(struct br_trial *t, const struct br_trial_request *r)
-{
-    if (!r->kept || t->end == BR_TRIAL_FAILED)
-        return;
-    char *text = text_of(t, r);
-    br_kept_put(r->kept, text, pass_trial, &(struct trials){t, r});
-    free(text);
-}
 
 /* Times one trial: sets `cost` and, if the march is not complete, `end` and `failure`. A failure of
  * the march is a result of the trial; an interruption ends the call. */
@@ -307,14 +228,13 @@ static enum br_status time_one(void *self, size_t i, struct br_error *err)
 {
     const struct trials *all = self;
     struct br_trial *t = &all->trial[i];
-    if (t->end == BR_TRIAL_LEFT || take_kept(t, all->request))
+    if (t->end == BR_TRIAL_LEFT)
         return BR_OK;
     const enum br_status status = repeat(t, all->request, err);
     if (status == BR_INTERRUPTED)
         return status;
     if (status && t->end != BR_TRIAL_OVER)
         t->end = BR_TRIAL_FAILED;
-    keep_trial(t, all->request);
     return BR_OK;
 }
 
@@ -388,8 +308,7 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
                                    .reference = r->reference,
                                    .n_count = 1,
                                    .n = &t->at.n,
-                                   .steps = &g->steps[c],
-                                   .engine = br_kept_engine(r->kept)};
+                                   .steps = &g->steps[c]};
             s->reference_method.axial_degree = s->method.axial_degree;
         }
         s->k_count++;

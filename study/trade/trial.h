@@ -66,7 +66,6 @@ struct br_trial_request {
     double seconds;                     /* of all trials, about; 0: no limit */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
-    struct br_kept *kept;               /* where trials are kept; NULL: nowhere */
 };
 
 /* The default request: l2, 3 repeats within 0.01 s, 10 s a march. */

@@ -23,7 +23,7 @@ mask() {
         -e 's/"(version|commit)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
         -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
         -e 's/^(set yrange) \[[0-9.]+e-1[2-9]:.*/\1 ROUND-OFF/' \
-        -e 's/^([0-9]+) [0-9]+ [0-9]{19} /\1 SIZE TIME /' -e '/^  (avx[0-9a-z]*|portable) /d' |
+        -e '/^  (avx[0-9a-z]*|portable) /d' |
         awk -f "$here/join.awk"
 }
 

@@ -23,7 +23,7 @@
 #include "tests/lab/grids.h"
 #include "tests/lab/others.h"
 #include "tests/lab/published.h"
-#include "tests/support.h"
+#include "tests/checks.h"
 
 enum { SAMPLE = 12, MANY = 300, MOST_LINES = 100000 };
 

@@ -32,7 +32,7 @@
 #include <string.h>
 
 #include "orders/request.h"
-#include "tests/support.h"
+#include "tests/checks.h"
 
 enum {
     MOST_CASES = 400,

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "checks.h"
+
+#include <ctype.h>
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* As the program and the library do. */
+__attribute__((constructor)) static void let_gsl_return(void)
+{
+    gsl_set_error_handler_off();
+}
+
+void br_test_close(const char *what, double actual, double expected, double tolerance,
+                   const char *file, int line)
+{
+    const double error = fabs(actual - expected);
+    if (!(error <= tolerance)) {
+        print_error("%s:%d: %s is %.17g, expected %.17g +- %.3g (off by %.3g)\n", file, line, what,
+                    actual, expected, tolerance, error);
+        _fail(file, line);
+    }
+}
+
+void br_test_at_most(const char *what, double actual, double limit, const char *file, int line)
+{
+    if (!(actual <= limit)) {
+        print_error("%s:%d: %s is %.6g, expected at most %.6g\n", file, line, what, actual, limit);
+        _fail(file, line);
+    }
+}
+
+void br_test_must(enum br_status status, const struct br_error *err, const char *what,
+                  const char *file, int line)
+{
+    if (status != BR_OK) {
+        print_error("%s:%d: %s: status %d: %s\n", file, line, what, status, err->message);
+        _fail(file, line);
+    }
+}
+
+void br_test_refused(enum br_status status, enum br_status expected, const struct br_error *err,
+                     const char *text, const char *what, const char *file, int line)
+{
+    const bool right = status == expected && err->status == expected && strstr(err->message, text);
+    if (!right) {
+        print_error("%s:%d: %s: status %d with \"%s\", expected %d with \"%s\"\n", file, line, what,
+                    status, err->message, expected, text);
+        _fail(file, line);
+    }
+}
+
+static uint64_t next(struct br_test_random *random)
+{
+    uint64_t z = random->state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+double br_test_uniform(struct br_test_random *random, double low, double high)
+{
+    return low + (high - low) * (double)(next(random) >> 11) * 0x1p-53;
+}
+
+double br_test_log_uniform(struct br_test_random *random, double low, double high)
+{
+    return exp(br_test_uniform(random, log(low), log(high)));
+}
+
+size_t br_test_index(struct br_test_random *random, size_t count)
+{
+    return (size_t)(next(random) % count);
+}
+
+bool br_test_quick(void)
+{
+    return getenv("BR_TEST_QUICK") != NULL;
+}
+
+bool br_test_long(void)
+{
+    return getenv("BR_TEST_LONG") != NULL;
+}
+
+double br_test_slack(void)
+{
+    volatile long double one = 1, tiny = 1e-18L;
+    return one + tiny == one ? 1e4 : 1;
+}
+
+/* ---- files ---- */
+
+static char scene_file[] = "/tmp/br_test_scene_XXXXXX.yaml";
+
+static void remove_scene_file(void)
+{
+    remove(scene_file);
+}
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+const char *br_test_scene_file(const char *text)
+{
+    static bool made;
+    if (!made) {
+        const int descriptor = mkstemps(scene_file, 5);
+        assert_true(descriptor >= 0 && close(descriptor) == 0);
+        assert_int_equal(atexit(remove_scene_file), 0);
+        made = true;
+    }
+    write_file(scene_file, text);
+    return scene_file;
+}
+
+/* ---- rows ---- */
+
+char *br_test_part(char *row)
+{
+    char *bar = strstr(row, " | ");
+    if (!bar)
+        return row + strlen(row);
+    *bar = '\0';
+    return bar + 3;
+}
+
+char *br_test_unescape(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++)
+        if (strncmp(from, "\\n", 2) == 0) {
+            *to++ = '\n';
+            from++;
+        } else
+            *to++ = *from;
+    *to = '\0';
+    return text;
+}
+
+void br_test_rows(const char *section, void (*check)(char *row))
+{
+    char path[1024], *row = NULL;
+    size_t room = 0, rows = 0;
+    bool inside = false;
+    snprintf(path, sizeof path, "%s/tests/data/text_refusals.txt", getenv("BEAMRATE_DATA"));
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (getline(&row, &room, file) > 0) {
+        row[strcspn(row, "\n")] = '\0';
+        if (strncmp(row, "= ", 2) == 0) {
+            inside = strcmp(row + 2, section) == 0;
+        } else if (inside && *row && strncmp(row, "##", 2) != 0) {
+            check(row);
+            rows++;
+        }
+    }
+    assert_true(rows > 20);
+    free(row);
+    fclose(file);
+}
+
+/* ---- stored texts ---- */
+
+/* The number of bytes up to the first difference; numbers may differ within the tolerance. */
+static size_t same_bytes(const char *text, const char *stored, double tolerance)
+{
+    const char *at = text;
+    while (*at && *stored) {
+        char *end, *stored_end;
+        const double number = strtod(at, &end), other = strtod(stored, &stored_end);
+        if (tolerance > 0 && isdigit((unsigned char)*at) && isdigit((unsigned char)*stored) &&
+            fabs(number - other) <= tolerance * other) {
+            at = end;
+            stored = stored_end;
+        } else if (*at != *stored) {
+            return (size_t)(at - text);
+        } else {
+            at++;
+            stored++;
+        }
+    }
+    return (size_t)(at - text) + (*stored != '\0');
+}
+
+void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance)
+{
+    static char stored[1 << 18];
+    char path[1024], *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    print(out);
+    assert_int_equal(fclose(out), 0);
+    snprintf(path, sizeof path, "%s/tests/golden/made/%s.txt", getenv("BEAMRATE_DATA"), name);
+    if (getenv("BR_TEST_UPDATE"))
+        write_file(path, text);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail_msg("%s is not there", path);
+    stored[fread(stored, 1, sizeof stored - 1, file)] = '\0';
+    fclose(file);
+    const size_t same = same_bytes(text, stored, tolerance);
+    if (same != size)
+        fail_msg("%s is otherwise from here on (./bootstrap update writes it anew): %.200s", path,
+                 text + (same < size ? same : size));
+    free(text);
+}
+
+/* ---- memory ---- */
+
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+                            const void *data, long least)
+{
+    long failed = 0, left = -1;
+    for (long i = 0; left < 0; i++) {
+        struct br_error err = {0};
+        br_allocation_fails_at(i);
+        const enum br_status status = attempt(data, &err);
+        left = br_allocation_fails_at(-1);
+        if (status)
+            REFUSED(status, BR_NO_MEMORY, "out of memory");
+        failed += status != BR_OK;
+        assert_true(i < 10000 && !(status && left >= 0));
+    }
+    if (failed < least)
+        fail_msg("%ld allocations failed, expected at least %ld", failed, least);
+}
