@@ -84,8 +84,8 @@ static void take_rows(struct br_rows *r, const struct br_order_point *point, siz
 /* The middle of a cell of parameters (below) describes the whole cell to about this. */
 static const double cell_scatter = 8e-3;
 
-/* Parts of less weight than e^-7 of the best are not kept. */
-static const double kept = 7;
+/* Parts of less weight than e^-7.7 of the best are not kept. */
+static const double kept = 7.7;
 
 /* The next term of a difference, relative to that of the error itself. */
 static double next_of_difference(const struct br_rows *r, size_t i, double s)
