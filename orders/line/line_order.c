@@ -9,8 +9,7 @@
 
 /* ---- rows ---- */
 
-/* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
-static double loss(double ratio, double p, double *slope)
+double br_row_loss(double ratio, double p, double *slope)
 {
     const double decay = ratio > 0 ? p * log(ratio) : 0;
     *slope = 0;
@@ -27,7 +26,7 @@ static double regress_all(const struct br_rows *r, double p)
     double x = 0, y = 0, xx = 0, xy = 0, slope;
     const double n = (double)r->count;
     for (size_t i = 0; i < r->count; i++) {
-        const double log_z = r->x[i], log_e = r->y[i] - loss(r->ratio[i], p, &slope);
+        const double log_z = r->x[i], log_e = r->y[i] - br_row_loss(r->ratio[i], p, &slope);
         x += log_z, y += log_e, xx += log_z * log_z, xy += log_z * log_e;
     }
     return (xy - x * y / n) / (xx - x * x / n);
@@ -74,7 +73,7 @@ static void take_rows(struct br_rows *r, const struct br_order_point *point, siz
     for (int turn = 0; turn < 30; turn++)
         r->order = regress_all(r, r->order);
     for (size_t i = 0; i < r->count; i++) { /* the loss is linear about that order */
-        r->y[i] -= loss(r->ratio[i], r->order, &slope) - slope * r->order;
+        r->y[i] -= br_row_loss(r->ratio[i], r->order, &slope) - slope * r->order;
         r->x[i] += slope;
     }
 }
@@ -549,8 +548,8 @@ double br_order_rate(const struct br_order_point *coarse, const struct br_order_
         return falls / ratio;
     while (high - low > 1e-14 * steepest) {
         const double p = (low + high) / 2;
-        const double lost = loss(coarse->z_against / coarse->z, p, &slope) -
-                            loss(fine->z_against / fine->z, p, &slope);
+        const double lost = br_row_loss(coarse->z_against / coarse->z, p, &slope) -
+                            br_row_loss(fine->z_against / fine->z, p, &slope);
         *(p * ratio + lost < falls ? &low : &high) = p;
     }
     return low > -steepest && high < steepest ? (low + high) / 2 : NAN;
@@ -563,7 +562,7 @@ double br_order_rate(const struct br_order_point *coarse, const struct br_order_
 static double log_share(const struct br_order_point *point, double p)
 {
     double slope;
-    return p * log(point->z) + loss(point->z_against / point->z, p, &slope);
+    return p * log(point->z) + br_row_loss(point->z_against / point->z, p, &slope);
 }
 
 static double line_at(const struct br_order_point *point, size_t count, size_t i, double p)

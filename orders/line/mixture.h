@@ -85,6 +85,9 @@ struct br_rows {
     struct br_law_place *place;  /* of a law */
 };
 
+/* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
+double br_row_loss(double ratio, double p, double *slope);
+
 struct br_sums {
     double w, x, y, xx, xy, yy, log_density; /* y: less start + order x, else digits cancel */
     double q, xq, yq, qq, unit;              /* q: the curve; unit: it at the first row */

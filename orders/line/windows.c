@@ -86,6 +86,11 @@ static void find_left(double far, const struct br_sums *s, double variance, doub
     p->left = s->start + s->order * far + s->y / s->w + slope * (far - middle) +
               p->curve * (p->curve_there - s->q / s->w) - (power ? log(order) : 0) + p->there;
     p->left_scale = br_priors.shared * sqrt(variance * (a + b * b * xx) + fmax(0, known));
+    if (power) { /* rows know the loss as a line about the order of all of them */
+        double loses;
+        const double ratio = exp(far), as_known = br_row_loss(ratio, s->order, &loses);
+        p->left -= br_row_loss(ratio, order, &(double){0}) - as_known - loses * (order - s->order);
+    }
 }
 
 /* Not above the logarithm, and at most 0.06 below it; x is a normal number above 0. */
