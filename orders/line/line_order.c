@@ -43,9 +43,20 @@ static double scatter(const struct br_order_point *p)
     return p->deviation / p->error;
 }
 
+/* The loss is linear about this order. */
+static void bring_to_line(struct br_rows *r, double order)
+{
+    r->order = order;
+    for (size_t i = 0; i < r->count; i++) {
+        double slope;
+        r->y[i] = r->error[i] - (br_row_loss(r->ratio[i], order, &slope) - slope * order);
+        r->x[i] = log(r->z[i]) + slope;
+    }
+}
+
 static void take_rows(struct br_rows *r, const struct br_order_point *point, size_t count)
 {
-    double finest = NAN, slope, least = INFINITY;
+    double finest = NAN, least = INFINITY;
     for (size_t i = 0; i < count; i++)
         if (usable(&point[i])) {
             finest = point[i].z;
@@ -72,10 +83,7 @@ static void take_rows(struct br_rows *r, const struct br_order_point *point, siz
     r->order = 1;
     for (int turn = 0; turn < 30; turn++)
         r->order = regress_all(r, r->order);
-    for (size_t i = 0; i < r->count; i++) { /* the loss is linear about that order */
-        r->y[i] -= br_row_loss(r->ratio[i], r->order, &slope) - slope * r->order;
-        r->x[i] += slope;
-    }
+    bring_to_line(r, r->order);
 }
 
 /* ---- laws ---- */
@@ -440,6 +448,52 @@ static void describe(struct br_mixture *all, const struct br_rows *r, double fin
     found->floor = likely->floor;
 }
 
+/* The weights of errors that scatter by the same, not relative to themselves (1), or back (-1). */
+static void weigh_absolute(struct br_rows *r, double sign)
+{
+    for (size_t i = 0; i < r->count; i++) {
+        r->given[i] *= exp(2 * sign * (r->error[i] - r->error[0]));
+        r->log_given[i] = 0.5 * log(r->given[i]);
+    }
+}
+
+/* The mixture of all laws of rows that are brought to a line. */
+static void mix(struct br_mixture *all, struct br_rows *r)
+{
+    const double absolute = isfinite(all->far) && !all->few ? br_priors.absolute : 0;
+    all->count = 0;
+    all->best = -INFINITY;
+    all->finest = 1;
+    br_window_take_noise(r);
+    for (size_t i = 0; i < r->count; i++)
+        r->log_given[i] = 0.5 * log(r->given[i]);
+    add_laws(all, r, log(1 - absolute));
+    if (absolute > 0) {
+        weigh_absolute(r, 1);
+        all->finest = r->given[r->count - 1];
+        add_laws(all, r, log(absolute));
+        weigh_absolute(r, -1);
+    }
+    if (all->count)
+        br_mixture_normalise(all);
+}
+
+/* Where the order of differences is another one than that of the regression of all rows, as beside
+ * a coarse row that is far off, they are brought to a line about it. */
+static void explain(struct br_mixture *all, struct br_rows *r)
+{
+    enum { TURNS = 2 };
+    static const double near = 0.1;
+    mix(all, r);
+    for (int turn = 0; turn < TURNS && all->count && isfinite(all->far) && !all->few; turn++) {
+        const double order = br_mixture_estimate(all, NULL, NULL).value;
+        if (!(fabs(order - r->order) > near))
+            return;
+        bring_to_line(r, order);
+        mix(all, r);
+    }
+}
+
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
@@ -471,25 +525,11 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
             finest && finest->z_against > 0 ? log(finest->z_against / finest->z) : (double)NAN;
         all.few = r.count == 2 && isfinite(all.far);
         if ((r.count >= 3 || all.few) && isfinite(r.order)) {
-            br_window_take_noise(&r);
             for (size_t i = 1; i < r.count; i++)
                 r.log_gamma[i] = lgamma_r((double)i / 2, &(int){0}); /* lgamma writes a global */
             all.log_gamma = r.log_gamma;
-            const double absolute = isfinite(all.far) && !all.few ? br_priors.absolute : 0;
-            all.finest = 1;
-            for (size_t i = 0; i < r.count; i++)
-                r.log_given[i] = 0.5 * log(r.given[i]);
-            add_laws(&all, &r, log(1 - absolute));
-            for (size_t i = 0; i < r.count; i++)
-                r.given[i] *= exp(2 * (r.error[i] - r.error[0]));
-            for (size_t i = 0; i < r.count; i++)
-                r.log_given[i] = 0.5 * log(r.given[i]);
-            all.finest = r.given[r.count - 1];
-            if (absolute > 0)
-                add_laws(&all, &r, log(absolute));
+            explain(&all, &r);
         }
-        if (all.count)
-            br_mixture_normalise(&all);
         if (all.starved)
             status = br_no_memory(err, "the order");
         else if (all.count)
