@@ -90,25 +90,12 @@ void br_mixture_normalise(struct br_mixture *all)
         all->part[i].weight /= used;
 }
 
-/* Student's distribution of whole freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). */
-static double student_below(double t, double freedom)
-{
-    const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
-    const bool odd = (int)freedom % 2 == 1;
-    double term = odd ? sqrt(square) : 1, sum = 0;
-    for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
-        sum += term;
-        term *= square * (k - 1) / k;
-    }
-    return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
-}
-
 double br_mixture_below(const struct br_mixture *all, double order)
 {
     double sum = 0;
     for (size_t i = 0; i < all->count; i++) {
         const struct br_law_part *p = &all->part[i];
-        sum += p->weight * student_below((order - p->mean) / p->scale, p->freedom);
+        sum += p->weight * br_student_below((order - p->mean) / p->scale, p->freedom);
     }
     return sum;
 }
