@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/load.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -12,7 +14,34 @@
 
 static enum br_status fail_with_errno(const char *path, struct br_error *err)
 {
-    return br_fail(err, br_status_of_errno(errno), "%s: %s", path, strerror(errno));
+    const int why = errno;
+    char suggestion[BR_SUGGESTION] = "";
+    if (why == ENOENT)
+        br_suggest_file(path, suggestion);
+    return br_fail(err, br_status_of_errno(why), "%s: %s%s", path, strerror(why), suggestion);
+}
+
+char *br_suggest_file(const char *path, char text[BR_SUGGESTION])
+{
+    enum { MOST = 4096 }; /* of the files of a folder */
+    char folder[1024];
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(name - path) : 1, slash ? path : ".");
+    struct dirent **entry = NULL;
+    const char **names = NULL;
+    const int found = scandir(folder, &entry, NULL, alphasort);
+    const size_t count = found > 0 && found <= MOST ? (size_t)found : 0;
+    *text = '\0';
+    if (count && (names = br_allocate(count, sizeof *names))) {
+        for (size_t i = 0; i < count; i++)
+            names[i] = entry[i]->d_name;
+        br_suggestion(name, names, count, text);
+    }
+    for (int i = 0; i < found; i++)
+        free(entry[i]);
+    free(entry);
+    free(names);
+    return text;
 }
 
 /* Waits for bytes or for the end, however long a writer takes, but not for ever for a writer. */

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "base/status.h"
+#include "base/words.h"
 
 #define BR_STANDARD_INPUT "/dev/stdin"
 
@@ -15,5 +16,9 @@
  * "scene". Also fails with BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
 enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,
                             struct br_error *err);
+
+/* How the refusal of a path ends that is not there: "; did you mean 'errors.csv'?", a file of the
+ * same folder, or nothing; returns text (out). */
+char *br_suggest_file(const char *path, char text[BR_SUGGESTION]);
 
 #endif

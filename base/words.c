@@ -268,7 +268,7 @@ bool br_lists(const char *list, const char *name)
 {
     const char *listed;
     size_t length;
-    while (list) {
+    while (name && list) {
         list = br_list_next(list, &listed, &length);
         if (length && length == strlen(name) && memcmp(listed, name, length) == 0)
             return true;

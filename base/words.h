@@ -68,7 +68,7 @@ const char *br_list_quoted(const char **at);
  * end); returns the rest of the list, or NULL. In double quotes a name may have commas: "a,b". */
 const char *br_list_next(const char *list, const char **name, size_t *length);
 
-/* Whether a name is in a list (NULL: an empty one). */
+/* Whether a name (NULL: a column without a heading) is in a list (NULL: an empty one). */
 bool br_lists(const char *list, const char *name);
 
 /* ---- numbers ---- */

@@ -73,6 +73,8 @@ const struct br_command *br_find_command(const char *name);
 
 /* ---- the documentation and the completions, made from commands, options and registries ---- */
 
+/* Of the program: its commands. */
+void br_print_help(FILE *out);
 void br_print_command_help(FILE *out, const struct br_command *command);
 
 /* Writes words in lines of the terminal's width. The first line has `at` letters already. */

@@ -50,9 +50,11 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
 {
     const char *word = argc > 1 ? argv[1] : "";
     const bool help = strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
-    if (argc < 2)
+    if (argc < 2) { /* a failure: a job whose variable is empty has checked nothing */
+        br_print_help(stderr);
         return br_fail(err, BR_BAD_INPUT, "no command is given; '%s help' lists them",
                        br_program.name);
+    }
     if (strcmp(word, "--version") == 0) {
         printf("%s %s (%s)\n%s\n", br_program.name, br_version(), br_commit(), br_libraries());
         return BR_OK;
@@ -72,6 +74,17 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
         status = run(command, &options, err);
     br_options_clear(&options);
     return status;
+}
+
+/* Whether the command keeps finished work, to go on with. */
+static bool may_resume(const char *word)
+{
+    struct br_option row[BR_OPTIONS];
+    const struct br_command *command = br_find_command(word);
+    for (size_t i = command ? br_options_of(command, row) : 0; i > 0; i--)
+        if (row[i - 1].id == BR_OPT_RESUME)
+            return true;
+    return false;
 }
 
 /* False at exit: a library (popt) ended the program, for lack of memory. */
@@ -116,7 +129,8 @@ static int run_all(int argc, const char **argv)
     if (!br_is_first())
         return 0; /* rank 0 prints the error, and ends with the exit code */
     if (status == BR_INTERRUPTED) {
-        fprintf(stderr, "beamrate: interrupted; no file is half written\n");
+        fprintf(stderr, "beamrate: interrupted; no file is half written%s\n",
+                may_resume(argc > 1 ? argv[1] : "") ? "; --resume continues the same command" : "");
         br_signals_raise_again();
     }
     if (!status && br_signals_caught()) { /* a script must see that a signal came */

@@ -73,9 +73,9 @@ void br_print_command_help(FILE *out, const struct br_command *c)
     br_print_wrapped(out, br_program.hint, 0, 0);
 }
 
-static void print_commands(FILE *out)
+void br_print_help(FILE *out)
 {
-    char line[160];
+    char line[256];
     snprintf(line, sizeof line, "%s: %s", br_program.name, br_program.about);
     br_print_wrapped(out, line, 0, 0);
     fprintf(out, "\nUsage: %s COMMAND [OPTION...]\n\nCommands:\n", br_program.name);
@@ -86,7 +86,9 @@ static void print_commands(FILE *out)
     fprintf(out, "\nTo begin with:\n");
     for (size_t i = 0; i < BR_MOST_EXAMPLES && br_program.example[i]; i++)
         fprintf(out, "  %s\n", br_program.example[i]);
-    snprintf(line, sizeof line, "'%s COMMAND --help' lists a command's options, with examples.",
+    snprintf(line, sizeof line,
+             "'%s COMMAND --help' lists a command's options, with examples. Their names may be cut "
+             "short: --dim is --dimension.",
              br_program.name);
     fputc('\n', out);
     br_print_wrapped(out, line, 0, 0);
@@ -94,6 +96,8 @@ static void print_commands(FILE *out)
     br_print_wrapped(
         out, "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.", 0,
         0);
+    br_print_wrapped(
+        out, "docs/ci.md shows jobs for GitHub, GitLab and Docker, and tests for pytest.", 0, 0);
 }
 
 /* ---- the command ---- */
@@ -108,7 +112,7 @@ static enum br_status run(const struct br_options *o, struct br_session *session
     if (command)
         br_print_command_help(stdout, command);
     else if (!*topic)
-        print_commands(stdout);
+        br_print_help(stdout);
     else
         br_program.beam->print_topic(topic);
     return BR_OK;

@@ -7,18 +7,22 @@ extern const struct br_command br_command_check, br_command_completions, br_comm
     br_command_study, br_command_tables, br_command_trade;
 
 static const struct br_command *const commands[] = {
-    &br_command_tables, &br_command_study,       &br_command_check,    &br_command_orders,
-    &br_command_run,    &br_command_trade,       &br_command_extremes, &br_command_figures,
-    &br_command_scenes, &br_command_completions, &br_command_help,     NULL,
+    &br_command_orders, &br_command_check,       &br_command_run,     &br_command_study,
+    &br_command_trade,  &br_command_tables,      &br_command_figures, &br_command_extremes,
+    &br_command_scenes, &br_command_completions, &br_command_help,    NULL,
 };
 
 const struct br_program br_program = {
     .name = "beamrate",
-    .about = "convergence studies of the dynamic frictional contact of a viscoelastic beam",
+    .about =
+        "how fast numbers converge: those of any program, and those of its own solver, a viscoelastic "
+        "beam that is pressed against an obstacle",
     .hint = "'beamrate help methods' lists schemes, solvers, rules, references, norms and formats.",
     .commands = commands,
-    .example = {"beamrate tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3",
-                "beamrate study example2 --norm l2,energy,tip", "beamrate check example2 example3",
+    .example = {"beamrate orders errors.csv",
+                "beamrate orders errors.csv --expect 'l2: h 2 +- 0.1'", "beamrate run example3",
+                "beamrate study example2 --norm l2,energy,tip",
+                "beamrate tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3",
                 "beamrate scenes --new my_scene.yaml"},
     .beam = &br_beam,
 };

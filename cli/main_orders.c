@@ -15,7 +15,7 @@ static const struct br_command br_command_check = {
     .bit = BR_FOR_CHECK,
     .name = "check",
     .arguments = "STUDY...",
-    .title = "checks that the orders are as expected: a verdict for CI",
+    .title = "a verdict for CI: are the orders as expected?",
     .about =
         "Checks that the numbers of study files converge as their 'verify' parts expect. An order "
         "has the verdict PASS if its 95 % interval lies within the band, FAIL if its 99 % interval "

@@ -12,32 +12,126 @@
 
 /* ---- what is refused ---- */
 
-static enum br_status refuse(poptContext context, const struct br_option *row, size_t count,
-                             int code, struct br_error *err)
+/* What other programs call an option: the name here, and more to say of it. */
+static const struct elsewhere {
+    const char *word, *name, *more;
+} elsewhere[] = {
+    {"dt", "k", ""},
+    {"time-step", "k", ""},
+    {"order", "expect",
+     " It asks for a verdict on an order; --formal-order states that of values."},
+    {"gci", "value", " It names the values that get a grid convergence index."},
+    {"baseline", "compare", ""},
+    {"output", "out", ""},
+    {"plot", "out", " Pictures are among the results."},
+    {"csv", "format", ""},
+    {"html", "format", ""},
+    {"latex", "format", ""},
+    {"jobs", "threads", ""},
+    {"steps", "k", " --k steps=LIST gives numbers of steps."},
+    {"dofs", "n", " --n dofs=LIST gives numbers of unknowns."},
+    {"level", "n", " --n level=LIST gives levels."},
+};
+
+struct rows {
+    const struct br_option *row;
+    size_t count;
+};
+
+static const struct br_option *find(const struct rows *rows, const char *name)
 {
-    const char *names[BR_OPTIONS], *bad = poptBadOption(context, POPT_BADOPTION_NOALIAS);
-    char word[64];
+    for (size_t i = 0; i < rows->count; i++)
+        if (strcmp(rows->row[i].name, name) == 0)
+            return &rows->row[i];
+    return NULL;
+}
+
+/* The name without its dashes and without a value. */
+enum { WORD = 64 };
+static bool long_name(const char *bad, char word[WORD])
+{
     const char *begin = bad + strspn(bad, "-");
-    snprintf(word, sizeof word, "%.*s", (int)strcspn(begin, "="), begin);
-    for (size_t i = 0; i < count; i++)
-        names[i] = row[i].name;
-    const bool unknown = code == POPT_ERROR_BADOPT;
+    snprintf(word, WORD, "%.*s", (int)strcspn(begin, "="), begin);
+    return strncmp(bad, "--", 2) == 0;
+}
+
+/* The options whose names begin with a word: writes "--a or --b" (out, cut where it is full). */
+static size_t beginning(const struct rows *rows, const char *word, const struct br_option **first,
+                        char *text, size_t size)
+{
+    size_t found = 0;
+    *text = '\0';
+    for (size_t i = 0; i < rows->count; i++) {
+        const struct br_option *row = &rows->row[i];
+        if (!*word || strncmp(row->name, word, strlen(word)) != 0)
+            continue;
+        *first = found++ ? *first : row;
+        br_append(text, size, "%s--%s", found > 1 ? " or " : "", row->name);
+    }
+    return found;
+}
+
+/* What stands behind "unknown option". */
+static void suggest(const struct rows *rows, const char *word, char *text, size_t size)
+{
+    const char *names[BR_OPTIONS];
+    const struct br_option *first;
+    char all[512];
+    *text = '\0';
+    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
+        if (strcmp(elsewhere[i].word, word) == 0 && find(rows, elsewhere[i].name)) {
+            br_append(text, size, "did you mean --%s?%s", elsewhere[i].name, elsewhere[i].more);
+            return;
+        }
     struct br_option theirs[BR_OPTIONS];
     for (const struct br_command *const *c = br_program.commands; *c; c++)
-        for (size_t i = 0, all = br_options_of(*c, theirs); i < all; i++)
-            if (unknown && strncmp(bad, "--", 2) == 0 && strcmp(theirs[i].name, word) == 0)
-                return br_fail(err, BR_BAD_INPUT, "%s: %s; it is one of '%s %s'", bad,
-                               poptStrerror(code), br_program.name, (*c)->name);
-    const char *nearest = unknown ? br_nearest(word, names, count) : NULL;
-    return br_fail(err, BR_BAD_INPUT, "%s: %s; %s%s%s", bad, poptStrerror(code),
-                   nearest ? "did you mean --" : "'--help' lists the options",
-                   nearest ? nearest : "", nearest ? "?" : "");
+        if (find(&(struct rows){theirs, br_options_of(*c, theirs)}, word)) {
+            br_append(text, size, "it is one of '%s %s'", br_program.name, (*c)->name);
+            return;
+        }
+    for (size_t i = 0; i < rows->count; i++)
+        names[i] = rows->row[i].name;
+    const char *nearest = br_nearest(word, names, rows->count);
+    if (beginning(rows, word, &first, all, sizeof all) > 1)
+        br_append(text, size, "it may be %s", all);
+    else if (nearest)
+        br_append(text, size, "did you mean --%s?", nearest);
+}
+
+static enum br_status refuse(poptContext context, const struct rows *rows, int code,
+                             struct br_error *err)
+{
+    char word[WORD], hint[640] = "";
+    const char *bad = poptBadOption(context, POPT_BADOPTION_NOALIAS);
+    if (code == POPT_ERROR_BADOPT && long_name(bad, word))
+        suggest(rows, word, hint, sizeof hint);
+    return br_fail(err, BR_BAD_INPUT, "%s: %s; %s", bad, poptStrerror(code),
+                   *hint ? hint : "'--help' lists the options");
+}
+
+/* An option may be cut short where no other one begins so: gives popt the whole name. */
+static bool complete(poptContext context, const struct rows *rows, int code)
+{
+    char word[WORD], all[512], *whole = NULL;
+    const struct br_option *row;
+    const char *bad =
+        code == POPT_ERROR_BADOPT ? poptBadOption(context, POPT_BADOPTION_NOALIAS) : "";
+    if (!long_name(bad, word) || beginning(rows, word, &row, all, sizeof all) != 1 ||
+        asprintf(&whole, "--%s%s", row->name, bad + strcspn(bad, "=")) < 0)
+        return false;
+    const bool taken = poptStuffArgs(context, (const char *[]){whole, NULL}) == 0;
+    free(whole);
+    return taken;
 }
 
 /* ---- times ---- */
 
 const char *br_read_time(const char *text, double duration, double *seconds)
 {
+    static const struct {
+        const char *name;
+        double seconds;
+    } unit[] = {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60}, {"h", 3600}};
     const char *rest = text + strspn(text, " ");
     if (*rest == 'T') {
         double parts = 1;
@@ -51,7 +145,14 @@ const char *br_read_time(const char *text, double duration, double *seconds)
         if (!rest)
             return NULL;
         rest += strspn(rest, " ");
-        rest += *rest == 's';
+        for (size_t i = 0; i < sizeof unit / sizeof *unit; i++) {
+            const size_t length = strlen(unit[i].name);
+            if (strncmp(rest, unit[i].name, length) != 0)
+                continue;
+            rest += length;
+            *seconds *= unit[i].seconds;
+            break;
+        }
     }
     rest += strspn(rest, " ");
     return *rest == '\0' || *rest == ',' ? rest : NULL;
@@ -66,7 +167,7 @@ static enum br_status check_times(const struct br_option *row, const char *text,
         const char *end = br_read_time(rest, 1, &seconds);
         if (!end || !(seconds > 0) || (one && *end))
             return br_fail(err, BR_BAD_INPUT, "found '%s', expected %s", rest,
-                           one ? "one time above 0, like 1e-3 or T/1000"
+                           one ? "one time above 0, like 1e-3, 1 ms or T/1000"
                                : "times above 0 separated by commas, like 0.1,T/20");
         rest = end;
         if (!*rest)
@@ -185,6 +286,9 @@ static enum br_status read_rest(poptContext context, struct br_options *o, struc
                        c->words            ? c->arguments
                        : c->most_words > 1 ? "files or names of bundled scenes"
                                            : "a file or the name of a bundled scene");
+    if (given > c->most_words && c->most_words == 1 && !c->words)
+        return br_fail(err, BR_BAD_INPUT, "one %s at a time; '%s' is a second one",
+                       c->bit == BR_FOR_ORDERS ? "table" : "scene", word[1]);
     if (given > c->most_words)
         return br_fail(err, BR_BAD_INPUT, "found '%s', expected nothing more", word[c->most_words]);
     if (!(o->word = br_allocate(given + 1, sizeof *o->word)))
@@ -200,18 +304,21 @@ static enum br_status read_rest(poptContext context, struct br_options *o, struc
     return BR_OK;
 }
 
-static enum br_status read_all(poptContext context, struct br_options *o,
-                               const struct br_option *row, size_t count, struct br_error *err)
+static enum br_status read_all(poptContext context, struct br_options *o, const struct rows *rows,
+                               struct br_error *err)
 {
     int code;
-    while ((code = poptGetNextOpt(context)) > 0) {
-        const enum br_status status = take(context, o, &row[code - 1], err);
-        if (status || row[code - 1].id == BR_OPT_HELP)
+    while ((code = poptGetNextOpt(context)) > 0 || complete(context, rows, code)) {
+        if (code < 0)
+            continue;
+        const struct br_option *row = &rows->row[code - 1];
+        const enum br_status status = take(context, o, row, err);
+        if (status || row->id == BR_OPT_HELP)
             return status;
     }
     if (code < -1)
-        return refuse(context, row, count, code, err);
-    return read_values(o, row, count, err) ? err->status : read_rest(context, o, err);
+        return refuse(context, rows, code, err);
+    return read_values(o, rows->row, rows->count, err) ? err->status : read_rest(context, o, err);
 }
 
 enum br_status br_options_parse(int argc, const char **argv, const struct br_command *command,
@@ -231,7 +338,7 @@ enum br_status br_options_parse(int argc, const char **argv, const struct br_com
     poptContext context = poptGetContext(br_program.name, argc, argv, table, 0);
     enum br_status status = BR_OK;
     if (context && errno != ENOMEM) /* without memory popt forgets words */
-        status = read_all(context, o, row, count, err);
+        status = read_all(context, o, &(struct rows){row, count}, err);
     if (!context || errno == ENOMEM)
         status = br_no_memory(err, "the options");
     poptFreeContext(context);

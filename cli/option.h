@@ -160,7 +160,8 @@ struct br_options {
 };
 
 /* Parses argv (argv[0] is "beamrate COMMAND"). Fails with BR_BAD_INPUT, naming the option, what was
- * found and what was expected, or BR_NO_MEMORY. With --help the rest is not checked. Clear the
+ * found and what was expected, or BR_NO_MEMORY. A name may be cut short where no other one begins
+ * so. With --help the rest is not checked. Clear the
  * options even after a failure. */
 enum br_status br_options_parse(int argc, const char **argv, const struct br_command *command,
                                 struct br_options *options, struct br_error *err);
@@ -177,7 +178,7 @@ const char *br_option_text(const struct br_options *o, enum br_option_id id);
 /* The number, or the row; `otherwise` where there is none. */
 double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise);
 
-/* ---- times: "0.1", "0.1 s", "T/20" ---- */
+/* ---- times: "0.1", "0.1 s", "100 ms", "T/20" ---- */
 
 /* Reads a time, s, at the start of text; duration: of the scene, s. Returns the text that follows,
  * the end or a comma; NULL: it is no time. */

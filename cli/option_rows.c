@@ -116,7 +116,7 @@ static const struct br_option rows[] = {
      BR_TAKES_DIR,
      .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      OWN({BR_FOR_TABLES, .standard = "results", .help = folder},
-         {BR_FOR_STUDY, .standard = "study", .help = folder},
+         {BR_FOR_STUDY, .standard = "results/study", .help = folder},
          {BR_FOR_TRADE, .standard = "trade", .help = folder},
          {BR_FOR_EXTREMES, .standard = "extremes", .help = folder},
          {BR_FOR_FIGURES, .standard = "figures", .help = folder})},

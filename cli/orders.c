@@ -138,8 +138,8 @@ static enum br_status read_study(const char *path, const struct br_options *o,
                        "%s: what the study file says is given as an option, too, expected one "
                        "of the two",
                        path);
-    const bool failed =
-        br_text_load(path, BR_LONGEST_STUDY, "study file", &text, err) || br_study_file_read(path, text, o, study, err);
+    const bool failed = br_text_load(path, BR_LONGEST_STUDY, "study file", &text, err) ||
+                        br_study_file_read(path, text, o, study, err);
     free(text);
     return failed ? err->status : BR_OK;
 }
@@ -249,7 +249,7 @@ const struct br_command br_command_orders = {
     .bit = BR_FOR_ORDERS,
     .name = "orders",
     .arguments = "FILE",
-    .title = "the orders of any program's errors or values",
+    .title = "order of convergence of any program's errors, GCI of its values",
     .about = "The orders of convergence of numbers from any program: of a table in a file (- is "
              "standard input), of a program that is run at each resolution "
              "(--run), or of a study file (.yaml) that says either.",

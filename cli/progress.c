@@ -126,13 +126,15 @@ static void show(void *self, double fraction)
 }
 
 /* share: of the most work that it may take; mostly it takes far less, so no time is printed. The
- * line fits in 40 columns. */
+ * line fits in 40 columns. A log has it once. */
 static void print_wait(double share)
 {
+    static bool said;
     if (progress.terminal)
         fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
-    else
+    else if (!said)
         fprintf(stderr, "%s: computing the exact reference\n", progress.what);
+    said = true;
 }
 
 /* The scene's marches wait for its exact reference. `show` prints the marches of others. */

@@ -56,7 +56,7 @@ double br_orders_rounding(const struct br_orders *o, size_t quantity,
 bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row)
 {
     const double number = row->number[of->quantity];
-    return !row->failure && number > 0 && isfinite(number);
+    return !row->failure && !row->out[of->quantity] && number > 0 && isfinite(number);
 }
 
 /* An error, or the difference of a value from the next finer one that there is. */
@@ -66,6 +66,7 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     const struct br_numbers *numbers = o->numbers;
     const struct br_numbers_row *row = &numbers->row[line->row[i]];
     struct br_point p = {.z = row->z[line->axis],
+                         .z_against = row->against[line->axis],
                          .error = row->number[quantity],
                          .deviation = deviation_of(row, quantity),
                          .rounding = br_orders_rounding(o, quantity, row)};
@@ -89,10 +90,11 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     br_numbers_name(numbers, &numbers->row[named], line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
     p.deviation = p.deviation > 0 ? p.deviation : 0; /* NaN: it is no mean */
-    p.flag = *failure       ? BR_FLAG_FAILED
-             : p.error > 0  ? BR_FLAG_NONE
-             : p.error == 0 ? BR_FLAG_ROUND_OFF
-                            : BR_FLAG_FAILED;
+    p.flag = *failure             ? BR_FLAG_FAILED
+             : row->out[quantity] ? row->out[quantity]
+             : p.error > 0        ? BR_FLAG_NONE
+             : p.error == 0       ? BR_FLAG_ROUND_OFF
+                                  : BR_FLAG_FAILED;
     return p;
 }
 
@@ -107,6 +109,7 @@ static enum br_status begin_case(const struct br_orders *o, size_t quantity, enu
         .part = "",
         .unit = q->unit ? q->unit : "",
         .points = points,
+        .order = {NAN, NAN, NAN},
         .may_miss = true,
     };
     c->point = br_allocate(points + 1, sizeof *c->point);
@@ -122,6 +125,20 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
     for (size_t i = 0; i < points && !status; i++)
         c->point[i] = point_of(o, quantity, line, i);
     return status;
+}
+
+enum br_status br_orders_add_differences(const struct br_orders *o, struct br_quantity_orders *of,
+                                         enum br_axis axis, struct br_error *err)
+{
+    const struct br_differences *d = &o->numbers->quantity[of->quantity].differences[axis];
+    struct br_orders_line *line = &of->differences[axis];
+    line->axis = axis;
+    if (!d->point)
+        return BR_OK;
+    if (begin_case(o, of->quantity, axis, d->points, &line->observed, err))
+        return err->status;
+    memcpy(line->observed.point, d->point, d->points * sizeof *d->point);
+    return br_case_observe(&line->observed, BR_ORDERS_LEAST, err);
 }
 
 static int by_size(const void *a, const void *b)

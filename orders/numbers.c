@@ -42,11 +42,14 @@ enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, siz
             (struct br_numbers_row){.given = {NAN, NAN},
                                     .z = {NAN, NAN},
                                     .number = br_allocate(2 * quantities + 2, sizeof *row->number),
+                                    .out = br_allocate(quantities + 1, sizeof *row->out),
                                     .seconds = NAN,
                                     .wall = NAN,
                                     .bytes = NAN};
-        if (!row->number)
+        if (!row->number || !row->out) {
+            numbers->rows++;
             return br_no_memory(err, "the numbers");
+        }
         row->deviation = row->number + quantities + 1;
         for (size_t i = 0; i <= quantities; i++)
             row->deviation[i] = NAN;
@@ -111,9 +114,12 @@ void br_numbers_clear(struct br_numbers *numbers)
     for (size_t i = 0; i < numbers->quantities; i++) {
         free(numbers->quantity[i].name);
         free(numbers->quantity[i].unit);
+        for (int axis = 0; axis < BR_AXES; axis++)
+            free(numbers->quantity[i].differences[axis].point);
     }
     for (size_t i = 0; i < numbers->rows; i++) {
         free(numbers->row[i].number);
+        free(numbers->row[i].out);
         free(numbers->row[i].failure);
         free(numbers->row[i].absent);
     }

@@ -75,11 +75,18 @@ static void flag_corners(const struct br_orders *o, struct br_quantity_orders *o
     }
 }
 
-static bool counts(const struct br_quantity_orders *of, size_t row)
+/* Why no joint fit takes a row: by the source, or by its lines; BR_FLAG_NONE: it does. */
+static enum br_flag left_out(const struct br_orders *o, const struct br_quantity_orders *of,
+                             size_t row)
 {
-    const struct br_point *a = point_on(of, BR_AXIS_SPACE, row),
-                          *b = point_on(of, BR_AXIS_TIME, row);
-    return (!a || a->flag == BR_FLAG_NONE) && (!b || b->flag == BR_FLAG_NONE);
+    enum br_flag flag = o->numbers->row[row].out[of->quantity];
+    if (!flag && !br_orders_counts(of, &o->numbers->row[row]))
+        flag = BR_FLAG_FAILED;
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_point *p = point_on(of, (enum br_axis)axis, row);
+        flag = flag || !p ? flag : p->flag;
+    }
+    return flag;
 }
 
 static enum br_status fit_both(const struct br_orders *o, struct br_quantity_orders *of,
@@ -92,19 +99,25 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     enum br_status status = observation && of->flag ? BR_OK : br_no_memory(err, "the joint fit");
     for (size_t i = 0; i < numbers->rows && !status; i++) {
         const struct br_numbers_row *row = &numbers->row[i];
-        if (br_orders_counts(of, row) && counts(of, i))
-            observation[count++] =
-                (struct br_observation){.x = {row->z[BR_AXIS_SPACE], row->z[BR_AXIS_TIME]},
-                                        .error = row->number[of->quantity],
-                                        .rounding = br_orders_rounding(o, of->quantity, row)};
+        if (left_out(o, of, i) == BR_FLAG_NONE)
+            observation[count++] = (struct br_observation){
+                .x = {row->z[BR_AXIS_SPACE], row->z[BR_AXIS_TIME]},
+                .ref = {row->against[BR_AXIS_SPACE], row->against[BR_AXIS_TIME]},
+                .error = row->number[of->quantity],
+                .rounding = br_orders_rounding(o, of->quantity, row)};
     }
     /* Rows are only left out, so the same number means the same rows. */
     if (!status && !(count > 0 && count == of->joint.points + of->joint.left_out)) {
-        status = br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint, err);
-        for (size_t i = 0; i < numbers->rows && !status; i++)
-            of->flag[i] = br_orders_counts(of, &numbers->row[i]) && counts(of, i)
-                              ? observation[at++].flag
-                              : BR_FLAG_NONE;
+        if (numbers->fitted)
+            of->joint = *numbers->fitted;
+        else
+            status = br_joint_fit_solve(observation, count, !numbers->powers, numbers->observer,
+                                        &of->joint, err);
+        for (size_t i = 0; i < numbers->rows && !status; i++) {
+            of->flag[i] = left_out(o, of, i);
+            if (of->flag[i] == BR_FLAG_NONE)
+                of->flag[i] = observation[at++].flag;
+        }
     }
     free(observation);
     return status;
@@ -134,16 +147,28 @@ static bool is_scatter(const struct br_orders_line *line)
     return line->limits.limit.sequence == BR_SEQUENCE_SCATTER;
 }
 
+/* Whether a line is one of the two finest along an axis whose theory is known: it may be an answer.
+ */
+static bool is_fine(const struct br_orders *o, const struct br_quantity_orders *of, size_t line)
+{
+    if (!(o->numbers->quantity[of->quantity].formal[of->line[line].axis] > 0))
+        return false;
+    return line + 2 >= of->lines || of->line[line + 2].axis != of->line[line].axis;
+}
+
 /* Finds the orders of all lines, which leaves out the errors that do not show them. On a grid,
  * errors may stay along one axis since the error of the other axis is larger; where the joint fit
- * describes all errors, none is left out. */
+ * describes all errors, none is left out, and of powers no line is needed then. */
 static enum br_status observe_lines(const struct br_orders *o, struct br_quantity_orders *of,
                                     bool leave_out, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t l = 0; l < of->lines && !status; l++) {
         struct br_case *c = &of->line[l].observed;
-        status = stopped(o->numbers, err) ? err->status : br_case_observe(c, BR_ORDERS_LEAST, err);
+        if (stopped(o->numbers, err))
+            return err->status;
+        if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
+            status = br_case_observe(c, BR_ORDERS_LEAST, err);
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
         if (!status && (is_scatter(&of->line[l]) || size->is_degree))
             br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);
@@ -163,7 +188,7 @@ static enum br_status observe_all(const struct br_orders *o, struct br_quantity_
         status = observe_lines(o, of, !described, err);
     if (!status && described)
         flag_lines(o, of);
-    if (status || !joint || described)
+    if (status || !joint || described || o->numbers->powers)
         return status;
     flag_corners(o, of);
     return fit_both(o, of, err);
@@ -188,12 +213,13 @@ static struct br_orders_answer answer_of_lines(const struct br_quantity_orders *
     const struct br_estimate *a = &finest->observed.order;
     if (next && next->axis == finest->axis && holds(a, &next->observed.order) &&
         holds(&next->observed.order, a))
-        return (struct br_orders_answer){*a, NULL};
-    return (struct br_orders_answer){{NAN, NAN, NAN}, bent[finest->axis]};
+        return (struct br_orders_answer){*a, NULL, .line = finest};
+    return (struct br_orders_answer){{NAN, NAN, NAN}, bent[finest->axis], .line = finest};
 }
 
-static struct br_orders_answer find_answer(const struct br_orders *o,
-                                           const struct br_quantity_orders *of, enum br_axis axis)
+static struct br_orders_answer answer_of_grid(const struct br_orders *o,
+                                              const struct br_quantity_orders *of,
+                                              enum br_axis axis)
 {
     static const char *const hidden[BR_AXES] = {
         "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
@@ -213,12 +239,110 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     const bool both = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
     if (br_joint_describes(&of->joint)) {
         const bool sure = br_order_determined(joint), small = of->joint.share[axis] < 0.5;
-        return (struct br_orders_answer){*joint, sure ? NULL : small ? hidden[axis] : open[axis]};
+        return (struct br_orders_answer){*joint,
+                                         sure    ? NULL
+                                         : small ? hidden[axis]
+                                                 : open[axis],
+                                         .joint = true, .line = finest};
     }
     if (!finest || is_scatter(finest))
-        return (struct br_orders_answer){{NAN, NAN, NAN}, finest ? scatter : both ? none : NULL};
+        return (struct br_orders_answer){{NAN, NAN, NAN},
+                                         finest ? scatter
+                                         : both ? none
+                                                : NULL,
+                                         .line = finest};
     return both ? answer_of_lines(of, finest)
-                : (struct br_orders_answer){finest->observed.order, NULL};
+                : (struct br_orders_answer){finest->observed.order, NULL, .line = finest};
+}
+
+const char br_orders_uneven[] = "the errors do not fall, or fall slowly and unevenly";
+
+static double width_of(const struct br_estimate *order)
+{
+    return order->high - order->low;
+}
+
+/* Whether each error that the order of a line rests on is smaller than the one before it; where
+ * there is no order, whether all are. */
+static bool falls(const struct br_case *c)
+{
+    bool smaller = true;
+    double before = INFINITY;
+    for (size_t i = 0; i < c->points; i++)
+        if (c->point[i].used || (c->point[i].lost && !br_order_determined(&c->order))) {
+            smaller = smaller && c->point[i].error < before;
+            before = c->point[i].error;
+        }
+    return smaller;
+}
+
+/* The answer as far as it can be believed of errors whose theory is known: an order far below it
+ * must be that of errors that fall evenly. */
+static struct br_orders_answer believed(struct br_orders_answer a, double formal)
+{
+    static const double even = 0.1; /* of an order */
+    const bool narrow = !a.joint && width_of(&a.order) <= even * a.order.value;
+    if (!(formal > 0))
+        return a;
+    if (!a.open && !(br_order_determined(&a.order) && (narrow || a.order.value > formal / 2) &&
+                     (a.joint || falls(&a.line->observed))))
+        a.open = br_orders_uneven;
+    if (a.open)
+        a.order = (struct br_estimate){NAN, NAN, NAN};
+    return a;
+}
+
+/* The last of the points that were not left out before their order was sought; NULL: none. */
+static const struct br_point *finest_of(const struct br_case *c)
+{
+    for (size_t i = c->points; i-- > 0;)
+        if (!c->point[i].flag || c->point[i].lost)
+            return &c->point[i];
+    return NULL;
+}
+
+/* Whether the differences of the other axis show that its error is not small beside the finest one
+ * of a line. */
+static bool is_hidden(const struct br_orders *o, const struct br_quantity_orders *of,
+                      const struct br_orders_line *line)
+{
+    static const double share = 0.1;
+    const enum br_axis other = line->axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
+    const struct br_point *finest = finest_of(&line->observed),
+                          *apart = finest_of(&of->differences[other].observed);
+    const double p = o->numbers->quantity[of->quantity].formal[other];
+    return finest && apart &&
+           apart->error * pow(o->numbers->row[line->row[0]].z[other], p) >
+               share * finest->error * (pow(apart->z, p) - pow(apart->z_against, p));
+}
+
+/* Whether differences are the answer. They do not depend on the other axis: where they show the
+ * order so well, a grid does not show more, and where they contradict it, it is wrong. */
+static bool are_better(const struct br_orders_answer *apart, const struct br_orders_answer *grid)
+{
+    static const double clear = 0.02;
+    const struct br_estimate *a = &apart->order, *b = &grid->order;
+    return grid->open || width_of(a) <= fmax(clear, width_of(b)) || a->high < b->low ||
+           b->high < a->low;
+}
+
+static struct br_orders_answer find_answer(const struct br_orders *o,
+                                           const struct br_quantity_orders *of, enum br_axis axis)
+{
+    static const char *const hidden[BR_AXES] = {
+        "the error in k hides the order in h: a finer k, or a coarser h, would show it",
+        "the error in h hides the order in k: a finer h, or a coarser k, would show it"};
+    const struct br_quantity *q = &o->numbers->quantity[of->quantity];
+    const struct br_orders_line *line = &of->differences[axis];
+    struct br_orders_answer grid = answer_of_grid(o, of, axis);
+    if (!grid.joint && grid.line && is_hidden(o, of, grid.line))
+        grid.open = hidden[axis];
+    grid = believed(grid, q->formal[axis]);
+    if (!line->observed.point)
+        return grid;
+    const struct br_orders_answer apart = believed(
+        (struct br_orders_answer){line->observed.order, NULL, .line = line}, q->formal[axis]);
+    return are_better(&apart, &grid) ? apart : grid;
 }
 
 /* The finest row of a line that has a number; the number of rows: there is none. */
@@ -268,9 +392,11 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = br_orders_add_lines(o, of, (enum br_axis)axis, err);
+    for (int axis = 0; axis < BR_AXES && !status; axis++)
+        status = br_orders_add_differences(o, of, (enum br_axis)axis, err);
     if (!status)
         status = observe_all(o, of, err);
-    for (int axis = 0; axis < BR_AXES; axis++)
+    for (int axis = 0; axis < BR_AXES && !status; axis++)
         of->answer[axis] = find_answer(o, of, (enum br_axis)axis);
     if (!status && numbers->quantity[of->quantity].is_value)
         of->limit = br_orders_is_grid(o) ? limit_of_grid(o, of)
@@ -283,7 +409,7 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
 static bool are_tied(const struct br_orders *o)
 {
     const struct br_numbers *numbers = o->numbers;
-    bool tied = br_orders_is_grid(o);
+    bool tied = br_orders_is_grid(o) && numbers->rows > 1;
     for (size_t i = 1; i < numbers->rows; i++)
         for (int axis = 0; axis < BR_AXES; axis++)
             tied &= numbers->row[i].z[axis] < numbers->row[i - 1].z[axis];
@@ -320,8 +446,10 @@ void br_orders_clear(struct br_orders *o)
         }
         free(o->of[i].line);
         free(o->of[i].flag);
-        for (int axis = 0; axis < BR_AXES; axis++)
+        for (int axis = 0; axis < BR_AXES; axis++) {
             free(o->of[i].point[axis]);
+            free(o->of[i].differences[axis].observed.point);
+        }
     }
     free(o->of);
     *o = (struct br_orders){0};

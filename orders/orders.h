@@ -16,6 +16,13 @@
 
 /* ---- numbers: they come from a source (request.h) ---- */
 
+/* Differences of successive sizes of one axis, from coarse to fine, at one size of the other axis,
+ * whose error they do not have. What br_case_observe needs of each point is set. */
+struct br_differences {
+    struct br_point *point; /* NULL: there are none; owned */
+    size_t points;
+};
+
 /* A column of numbers that is studied. */
 struct br_quantity {
     char *name;    /* owned */
@@ -23,6 +30,10 @@ struct br_quantity {
     bool is_value; /* true: its limit is not known; false: it is an error, whose limit is 0 */
     int digits, decimals; /* the most that one of its numbers has, if zeros at the end are none */
     bool fixed;           /* printed to these decimals; else to these digits */
+    /* What a source knows besides; zeros: nothing. */
+    double formal[BR_AXES]; /* the order of theory: errors that do not fall, or fall slowly and
+                               unevenly, show none then */
+    struct br_differences differences[BR_AXES];
 };
 
 /* Half a unit of the last digit to which a number of the quantity was printed; 0: it has all. */
@@ -32,18 +43,20 @@ double br_numbers_rounding(const struct br_quantity *quantity, double number);
 struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column, or a run that failed before
                               it stated its size: z is then about its place */
-    double listed[BR_AXES]; /* of a run: as its list has it */
-    double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN: none */
-    double *number;        /* by quantity; NaN: missing; owned */
-    double *deviation;     /* the standard deviation of each, where it is a mean; NaN, or no array:
-                              it is none; within `number` */
-    bool *absent;          /* by quantity: its study has no such row; NULL: none lacks; owned */
-    size_t repeat;         /* of a run: which of its cell; of a mean: how many; 0: one run */
-    size_t line;           /* in the source file; 0: there is none */
+    double listed[BR_AXES];  /* of a run: as its list has it */
+    double z[BR_AXES];       /* size of elements and steps, in a unit of the source; NaN: none */
+    double against[BR_AXES]; /* of the reference of its errors; 0: the continuous problem */
+    enum br_flag *out;       /* by quantity: why the source leaves a number out; owned */
+    double *number;          /* by quantity; NaN: missing; owned */
+    double *deviation; /* the standard deviation of each, where it is a mean; NaN, or no array:
+                          it is none; within `number` */
+    bool *absent;      /* by quantity: its study has no such row; NULL: none lacks; owned */
+    size_t repeat;     /* of a run: which of its cell; of a mean: how many; 0: one run */
+    size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
-    bool kept;             /* whether its numbers were kept from an earlier run */
-    char *failure;         /* why it has no numbers; NULL: it has; owned */
+    bool kept;                   /* whether its numbers were kept from an earlier run */
+    char *failure;               /* why it has no numbers; NULL: it has; owned */
 };
 
 /* A column, a row or a line of a table. */
@@ -63,15 +76,20 @@ struct br_numbers {
     size_t quantities;
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
-    double dimension; /* of the mesh, where unknowns or cells are counted */
-    bool assumed;     /* nobody stated it */
-    const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict on
-                              it; NULL: nothing is */
-    const char *taken; /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
-                          program's */
+    bool powers; /* the errors of each axis are known to be one power, without scatter and, but for
+                    rows that are out, without a floor: joint fits have no other laws, lines leave
+                    no row out of them, and only the two finest lines along an axis of known theory
+                    have an order */
+    const struct br_joint_fit *fitted; /* their joint fit, where it is known; NULL: it is not */
+    double dimension;                  /* of the mesh, where unknowns or cells are counted */
+    bool assumed;                      /* nobody stated it */
+    const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
+                              on it; NULL: nothing is */
+    const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
+                              program's */
     struct br_left_aside *left; /* of a table, what has no part in the numbers */
     size_t lefts;
-    struct br_store store; /* of these texts */
+    struct br_store store;              /* of these texts */
     const struct br_observer *observer; /* stops fits; may be NULL; borrowed */
 };
 
@@ -125,7 +143,11 @@ struct br_row_point {
 struct br_orders_answer {
     struct br_estimate order;
     const char *open; /* why it is not settled, and what would settle it; NULL: it is known */
+    bool joint;       /* it is that of the joint fit; else of a line: */
+    const struct br_orders_line
+        *line; /* of the errors, or of the differences; NULL: there is none */
 };
+extern const char br_orders_uneven[]; /* open: the errors of the line do not fall, or fall slowly */
 
 struct br_quantity_orders {
     size_t quantity;             /* of the numbers */
@@ -136,10 +158,11 @@ struct br_quantity_orders {
     struct br_grid_limit limit;          /* for a value: that of its line; on a grid over h and k */
     struct br_joint_fit joint;           /* for an error on a grid; not converged: there is none */
     enum br_flag *flag; /* by row: why that does not rest on it; NULL: there is none; owned */
-    struct br_orders_answer answer[BR_AXES]; /* by the joint fit where that describes the errors,
-                    else by the line at the finest size of the other axis; on a grid of errors only
-                    if the line at the next size shows the same order, so that the error of the
-                    other axis does not disturb it */
+    struct br_orders_line differences[BR_AXES]; /* of the source, with their orders */
+    struct br_orders_answer answer[BR_AXES];    /* by the joint fit where that describes the errors,
+                       else by the line at the finest size of the other axis; on a grid of errors only
+                       if the line at the next size shows the same order, so that the error of the
+                       other axis does not disturb it; by differences, where they show it better */
 };
 
 struct br_orders {
@@ -159,11 +182,14 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
-/* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the finest,
- * with their limits, but not their orders (lines.c, for br_orders_find). */
+/* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the
+ * finest, with their limits, but not their orders (lines.c, for br_orders_find). */
 enum { BR_ORDERS_LEAST = 3 /* sizes of a line, for an order with an interval */ };
 enum br_status br_orders_add_lines(const struct br_orders *orders, struct br_quantity_orders *of,
                                    enum br_axis axis, struct br_error *err);
+enum br_status br_orders_add_differences(const struct br_orders *orders,
+                                         struct br_quantity_orders *of, enum br_axis axis,
+                                         struct br_error *err);
 
 /* Whether a row has an error that a joint fit can take; half a unit of its last digit, 0 where it
  * was not printed. */
@@ -247,9 +273,9 @@ enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 
-/* Judges each expectation: on a grid of errors by the answer, else on the line at the finest size of
- * the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a quantity or an axis is
- * missing, or with BR_NO_MEMORY. */
+/* Judges each expectation: on a grid of errors by the answer, else on the line at the finest size
+ * of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a quantity or an axis
+ * is missing, or with BR_NO_MEMORY. */
 enum br_status br_orders_check(const struct br_orders *orders,
                                const struct br_order_expectation *expectations, size_t count,
                                struct br_check *check, struct br_error *err);

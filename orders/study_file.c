@@ -45,11 +45,18 @@ static bool is_outside(const char *path, const char *folder)
     return strncmp(file, in, length) != 0 || file[length] != '/';
 }
 
+/* The length of a study file's folder in its path; 0: the folder is this one. So it is for a pipe,
+ * whose name is /dev/stdin or /dev/fd/63. */
+static int folder_length(const char *path)
+{
+    const char *slash = strncmp(path, "/dev/", 5) ? strrchr(path, '/') : NULL;
+    return slash ? (int)(slash - path) + 1 : 0;
+}
+
 /* The path is relative to the folder of the study file. */
 static enum br_status take_table(const struct entry *e)
 {
-    const char *slash = strrchr(e->path, '/');
-    const int folder = slash && *e->text != '/' ? (int)(slash - e->path) + 1 : 0;
+    const int folder = *e->text != '/' ? folder_length(e->path) : 0;
     char **path = &e->request->table_path;
     if (asprintf(path, "%.*s%s", folder, e->path, e->text) < 0) {
         *path = NULL;
@@ -232,9 +239,9 @@ enum br_status br_orders_request_read(const char *path, const char *text,
                                       struct br_orders_request *request, struct br_error *err)
 {
     *request = br_orders_request_default();
-    const char *slash = strrchr(path, '/');
+    const int folder = folder_length(path);
     request->path = strdup(path);
-    request->folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    request->folder = folder ? strndup(path, (size_t)folder) : strdup(".");
     return request->path && request->folder ? br_yaml_read(path, text, take_study, request, err)
                                             : br_no_memory(err, "the study");
 }

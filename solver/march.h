@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The fully discrete problem VP^hk, equations (16) and (17): implicit Euler in
- * velocity form on n equal elements and `steps` equal steps of k = T/steps. */
+/* A march: the fully discrete problem VP^hk, equations (16) and (17), on n equal elements from t =
+ * 0 to T. The method says how it goes on in time (scheme.h): by implicit Euler in velocity form, as
+ * the paper, or by another scheme, each a sum of Euler's stages; in `steps` equal steps of
+ * k = T/steps or, with an adaptive scheme, in steps of its own. */
 #ifndef BR_SOLVER_MARCH_H
 #define BR_SOLVER_MARCH_H
 

@@ -549,7 +549,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
     say_missing(d, o);
     if (o->tied)
-        br_put_answer(d, "h and k change together: the orders in h are those of both.");
+        br_put_answer(d,
+                      "h and k are refined together: the order in h is that of the whole error.");
     for (size_t i = 0; i < o->numbers->rows; i++)
         kept += o->numbers->row[i].kept;
     if (kept) /* their numbers are those of the program at that time */

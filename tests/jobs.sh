@@ -58,7 +58,7 @@ job() {
             cd work || exit 99
             PATH=$(tr '\n' : <../github_path)$folder/bin:$PATH
             GITHUB_ACTION_PATH=$folder/release/beamrate-0 GITHUB_PATH=$folder/github_path RUNNER_TEMP=$folder/runner \
-                GITHUB_STEP_SUMMARY=$folder/summary TABLE=$table EXPECT='l2: h 2 +- 0.1' DIMENSION='' STUDY=$study \
+                GITHUB_STEP_SUMMARY=$folder/summary TABLE=$table EXPECT='l2: h 2 +- 0.1' DIMENSION='' OPTIONS='--threads 1' STUDY=$study \
                 BEAMRATE_ARCHIVE=file://$folder/beamrate.tar.gz \
                 BEAMRATE_SHA256=$(sha256sum <../beamrate.tar.gz | cut -d' ' -f1) bash -eo pipefail "../$step"
         ) >>log 2>&1 || code=$?

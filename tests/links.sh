@@ -48,7 +48,7 @@ check_link() { # PAGE TARGET
 }
 
 pages=0
-for page in "$root"/*.md "$root"/docs/*.md "$root"/solver/*.md; do
+for page in "$root"/*.md "$root"/docs/*.md "$root"/docs/decisions/*.md "$root"/solver/*.md; do
     page=${page#"$root"/}
     pages=$((pages + 1))
     for target in $(targets "$root/$page"); do

@@ -55,6 +55,7 @@ ends 2 orders run.yaml
 says 'orders run.yaml --trust'
 ends 0 check study.yaml --quiet
 ends 1 check fails.yaml --quiet
+"$BEAMRATE_ORDERS" check - --quiet <study.yaml || fails "a study of standard input: its table is not found"
 
 # What it alone says: it knows no scene.
 [ "${BEAMRATE-}" ] && "$BEAMRATE" check example1 --quiet

@@ -19,8 +19,9 @@ report() { # NAME WHAT: fails if the file `why` has lines
 
 # "h 2.00 1.99 2.00" for each order of an answer; "-" where it states none.
 orders_of() {
-    tr '\n' ' ' <"$1" | tr -s ' ' | grep -oE 'order in [hk] -?[0-9.]+ \[-?[0-9.]+, -?[0-9.]+\]' |
-        sed -E 's/order in ([hk]) (\S+) \[(\S+), (\S+)\]/\1 \2 \3 \4/' | sort
+    tr '\n' ' ' <"$1" | tr -s ' ' | grep -oE 'order( in [hk])? -?[0-9.]+ \[-?[0-9.]+, -?[0-9.]+\]' |
+        sed -E -e 's/order [^i]/order in h &/; s/in h order/in h/' \
+            -e 's/order in ([hk]) (\S+) \[(\S+), (\S+)\]/\1 \2 \3 \4/' | sort
 }
 
 # The same from lines "h ORDER LOW HIGH", rounded as the orders of $1 are, each to its own digits. No
@@ -53,7 +54,8 @@ in_json() {
 # names and sizes.
 in_table() {
     awk -v title="$2" 'index($0, title) == 1 { on = 1; next } !NF { on = 0 }
-        on && on++ > 1 { $1 = ""; gsub(/[a-zA-Z]+ = [^ ]+/, ""); gsub(/[][,]/, " "); print }' "$1" |
+        on && on++ { # a name may have blanks, one each
+            sub(/^([^ ]| [^ ])*  +/, ""); gsub(/[a-zA-Z]+ = [^ ]+/, ""); gsub(/[][,]/, " "); print }' "$1" |
         tr -s ' ' '\n' | grep -E '^(-|-?[0-9.]+(e[-+][0-9]+)?)$'
 }
 
@@ -90,7 +92,9 @@ details() { # NAME
         report "$1" "the answer states that joint fit"
         ;;
     values | both)
-        in_json all.json limits "limit low high p gci_fine gci_coarse asymptotic" >exact
+        keys='limit low high p gci_fine gci_coarse asymptotic'
+        [ "$1" = both ] || keys="$keys r21 r32 phi_ext e_a e_ext gci_limited"
+        in_json all.json limits "$keys" >exact
         in_table text "Limits of values" >shown
         agree shown exact >why
         report "$1" "the table of limits is that in JSON"
@@ -99,7 +103,8 @@ details() { # NAME
         else
             in_json all.json limits "limit low high" | tail -3 >exact
         fi
-        in_answer text 'limit [^ ]+ \[[^ ]+, [^ ]+\]|, p = [0-9.]+|GCI [^ ]+ %, asymptotic [0-9.]+' >shown
+        sed '/^Read: /q' text >head # the table of limits has these words, too
+        in_answer head 'limit [^ ]+ \[[^ ]+, [^ ]+\]|, p = [0-9.]+|GCI [^ ]+ %[^,]*, asymptotic [0-9.]+' >shown
         agree shown exact >why
         report "$1" "the answer states that limit"
         ;;

@@ -303,11 +303,10 @@ static void print_study(FILE *out)
                                  : (struct br_estimate){one, one - 0.1, one + 0.2};
             snprintf(o->by, sizeof o->by, "errors of %d", part == 1 ? 0 : part);
             for (int i = 0; i < 4; i++) {
-                o->point[i] = (struct br_seen_point){
-                    0.1 / (1 << i),
-                    one / (1 << i),
-                    BR_FLAG_NONE,
-                    {1.01 * one / (1 << i), one / (1 << i) - 0.01, one / (1 << i) + 0.02}};
+                o->point[i] = (struct br_point){
+                    .z = 0.1 / (1 << i),
+                    .error = one / (1 << i),
+                    .fit = {1.01 * one / (1 << i), one / (1 << i) - 0.01, one / (1 << i) + 0.02}};
                 if (part == 2)
                     o->point[i].fit = o->order;
             }

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "orders/request.h"
 #include "base/load.h"
 #include "checks.h"
+#include "orders/request.h"
 
 static struct br_error err;
 
@@ -150,6 +150,9 @@ TEST(test_lists)
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
     assert_false(br_lists(",", ""));
+    assert_false(br_lists("c", NULL));
+    refuse_with("10,4.2e-2\n20,1.1e-2\n40,1.8e-3\n80,1.3e-4\nn,l2\n",
+                &(struct columns){NULL, "l2", 2, NULL}, "t.csv");
 }
 
 /* Tables as programs write them: the order of one column, and what was taken for what. */
@@ -983,6 +986,11 @@ TEST(test_advice)
     char why[768];
     assert_int_equal(verdict_of(table, NULL, "l2: h 3 +- 0.1", why), BR_FAIL);
     if (!strstr(why, "finer grids do not help: the two finest show 2.00"))
+        fail_msg("%s", why);
+    static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n";
+    assert_int_equal(verdict_of(digits, NULL, "l2: h 2 +- 0.005", why), BR_INCONCLUSIVE);
+    if (!strstr(why, "Take a tolerance of 0.01, or give errors with more digits") ||
+        strstr(why, "add a row"))
         fail_msg("%s", why);
 }
 

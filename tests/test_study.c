@@ -350,7 +350,7 @@ TEST(test_steps_of)
         assert_true(steps == counts[i]);
     }
     REFUSED(br_steps_of(&scene, 0.03, &steps, &err), BR_BAD_INPUT,
-            "the nearest that do are 0.0303030303 and 0.02941176471");
+            "the nearest that do are T/33 and T/34");
     REFUSED(br_steps_of(&scene, 2, &steps, &err), BR_BAD_INPUT, "longer than the duration");
     REFUSED(br_steps_of(&scene, 1e-13, &steps, &err), BR_BAD_INPUT, "at most 1e12");
     static const double bad[] = {0, -1, NAN, INFINITY, -INFINITY};

@@ -220,7 +220,7 @@ static void write_methods(FILE *out, const struct language *l, struct fields f)
 {
     struct br_registry list[BR_REGISTRIES];
     struct br_option row[BR_OPTIONS];
-    const size_t count = br_registries(list), options = br_options_of(br_program.commands[0], row);
+    const size_t count = br_registries(list), options = br_options_of(br_find_command("run"), row);
     emit(out, l, l->methods, &f);
     for (size_t i = 0; i < options; i++)
         if (row[i].id >= BR_OPT_METHOD)

@@ -35,6 +35,10 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
     };
     if (br_asked_steps_make(&q->steps, scene, &w->steps, &study->k_count, err))
         return err->status;
+    if (q->n_count * study->k_count > BR_MOST_ROWS)
+        return br_fail(err, BR_BAD_INPUT,
+                       "found %zu meshes and %zu time steps, expected at most %d cells", q->n_count,
+                       study->k_count, BR_MOST_ROWS);
     br_sort_counts(q->n, q->n_count);
     br_sort_counts(w->steps, study->k_count);
     study->steps = w->steps;

@@ -7,6 +7,7 @@ usage: build.py PROJECT PROGRAM FOLDER [SCENE...]
 The pages and what they link to keep their places, so that their links hold; a link that does not is
 an error. The gallery shows the tip over time of each bundled scene, or of the SCENEs.
 """
+import json
 import os
 import pathlib
 import re
@@ -82,22 +83,45 @@ def make_gallery(program, scenes, folder):
     (folder / "index.md").write_text("\n".join(page) + "\n")
 
 
+def read_navigation(project):
+    """The headings of docs/README.md, each with the titles and pages of its table."""
+    parts = []
+    for line in (project / "docs/README.md").read_text().splitlines():
+        row = re.match(r"\| \[([^]]+)\]\(([^)]+\.md)\) \|", line)
+        if line.startswith("## "):
+            parts.append((line[3:], []))
+        elif row:
+            parts[-1][1].append((row[1], pathlib.Path(os.path.normpath(f"docs/{row[2]}"))))
+    return parts
+
+
+def write_navigation(parts):
+    lines = ["  - Home: README.md"]
+    for heading, pages in parts:
+        lines += [f"  - {json.dumps(heading)}:"]
+        lines += [f"    - {json.dumps(title)}: {page}" for title, page in pages]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     project, program, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
     listed = subprocess.run([program, "scenes"], check=True, capture_output=True, text=True)
     scenes = sys.argv[4:] or [line.split()[0] for line in listed.stdout.splitlines() if line.strip()]
     source = folder / "source"
     shutil.rmtree(source, ignore_errors=True)
-    first = [pathlib.Path("README.md"), pathlib.Path("docs/tutorial.md")]
-    pages = first + sorted(
-        page for page in (p.relative_to(project) for p in project.glob("docs/*.md"))
-        if page not in first) + [pathlib.Path("solver/README.md"), pathlib.Path("CHANGELOG.md")]
+    parts = read_navigation(project)
+    listed = {page for _, pages in parts for _, page in pages}
+    pages = [page.relative_to(project) for pattern in ("*.md", "docs/*.md", "docs/decisions/*.md")
+             for page in sorted(project.glob(pattern))] + [pathlib.Path("solver/README.md")]
+    index = pathlib.Path("docs/README.md")
+    lost = [str(page) for page in pages if page.parent == index.parent and page not in listed | {index}]
+    if lost:
+        sys.exit(f"{index} does not list {', '.join(lost)}")
     for page in pages:
         copy_page(project, source, page)
     make_gallery(program, scenes, source / "gallery")
-    pages.insert(2, pathlib.Path("gallery/index.md"))
-    entries = "".join(f"  - {page}\n" for page in pages)
-    (folder / "mkdocs.yml").write_text(SETTINGS + entries)
+    dict(parts)["The paper, and beams"].append(("Gallery", "gallery/index.md"))
+    (folder / "mkdocs.yml").write_text(SETTINGS + write_navigation(parts))
     subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--clean"], cwd=folder, check=True)
     print(folder / "site" / "index.html")
 

@@ -18,9 +18,8 @@ enum br_verify_kind {
 };
 extern const char *const br_verify_names[BR_VERIFY_KINDS];
 
-/* An order needs at least four errors: two to fit it, two to check it. Of more than five errors the
- * finest five count: coarse ones would outweigh a stall at the end, or hide an order that is
- * reached later. */
+/* A verdict needs at least four errors: two to fit an order, two to check it. Of more, all that
+ * show the order count for it, and the finest five for the constant. */
 enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
 
 /* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */

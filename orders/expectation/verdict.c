@@ -170,46 +170,67 @@ static void note_drift(struct br_case *c)
                   c->note[0] ? "; " : "", off[2] < off[1] ? "falls" : "rises", rate);
 }
 
-/* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
- */
-static void advise_tolerance(struct br_case *c)
+/* The least tolerance, rounded up, that would contain the interval. */
+static double enough(const struct br_case *c)
 {
     const double expected = c->expected.order;
     const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
-    const double enough = ceil(100 * off + 1e-9) / 100;
-    if (enough < expected / 4)
-        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would include it", enough);
+    return ceil(100 * off + 1e-9) / 100;
+}
+
+/* Where the orders from size to size go. */
+struct trend {
+    double first, last;
+    bool nearer;  /* the last ones are nearer to what is expected */
+    bool stays;   /* they are not, and out of the band: finer grids do not help */
+    bool outside; /* the interval lies outside the band */
+};
+
+static struct trend trend_of(const struct br_case *c)
+{
+    const struct br_expectation *e = &c->expected;
+    struct trend t;
+    end_rates(c, &t.first, &t.last);
+    const double first = c->of_grid ? NAN : t.first, last = c->of_grid ? NAN : t.last;
+    const double high = fmax(e->order, e->highest);
+    const double off = fabs(last - fmin(fmax(last, e->order), high));
+    const double before = fabs(first - fmin(fmax(first, e->order), high));
+    t.outside = c->order.high < e->order - e->tolerance || c->order.low > high + e->tolerance;
+    t.nearer = off < 0.75 * before;
+    t.stays = !t.nearer && off > e->tolerance && off >= (t.outside ? 0.9 : 1) * before;
+    return t;
 }
 
 /* Says what would settle the verdict: which way the orders from size to size go decides it. */
 static void advise(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
-    double first, last;
-    end_rates(c, &first, &last);
-    if (c->of_grid)
-        first = last = NAN;
-    const double high = fmax(e->order, e->highest);
-    const double off = fabs(last - fmin(fmax(last, e->order), high));
-    const double before = fabs(first - fmin(fmax(first, e->order), high));
-    const bool outside =
-        c->order.high < e->order - e->tolerance || c->order.low > high + e->tolerance;
-    if (off < 0.75 * before)
+    const struct trend t = trend_of(c);
+    const double few = 0.05 * e->order; /* errors of few digits leave an order so far off */
+    if (t.nearer)
         br_append(c->reason, sizeof c->reason,
                   "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
                   "asymptotic. Start finer, or refine further",
-                  last, first);
-    else if (off > e->tolerance && off >= (outside ? 0.9 : 1) * before)
+                  t.last, t.first);
+    else if (t.stays && !t.outside && enough(c) < few)
+        br_append(
+            c->reason, sizeof c->reason,
+            "; finer grids do not help: the two finest show %.4g, the two coarsest %.4g. Take "
+            "a tolerance of %.4g, or give errors with more digits",
+            t.last, t.first, enough(c));
+    else if (t.stays)
         br_append(c->reason, sizeof c->reason,
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
                   "Find what lowers the order, or expect another order",
-                  last, first);
-    else if (!(c->of_grid && outside)) {
+                  t.last, t.first);
+    else if (!(c->of_grid && t.outside)) {
         br_append(c->reason, sizeof c->reason, "; %s",
                   c->order.high - c->order.low > 2 * e->tolerance
                       ? "the interval is wider than the band: finer grids would narrow it"
                       : "finer grids would decide");
-        advise_tolerance(c);
+        if (enough(c) < e->order / 4) /* a wider one would accept any order */
+            br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would include it",
+                      enough(c));
     }
     if (*e->why)
         br_append(c->reason, sizeof c->reason, " (expected: %s)", e->why);
@@ -340,7 +361,7 @@ static void name_sizes(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
-    if (!(c->duration > 0) && !c->open)
+    if (!(c->duration > 0) && !c->open && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
                   lost ? c->point[0].label : last->label);
     if (!(c->duration > 0) || c->points < 2)
@@ -405,6 +426,20 @@ static void judge_factor(struct br_case *c)
                  br_order_text(&c->order, text, sizeof text));
 }
 
+/* Says why the case passes though its interval is wider than the band. */
+static void note_two(struct br_case *c)
+{
+    const char *between =
+        c->note[0] ? "; the orders from row to row, " : "the orders from row to row, ";
+    for (size_t i = 1; i < c->points; i++)
+        if (isfinite(rate_to(c, i))) {
+            br_append(c->note, sizeof c->note, "%s%.2f", between, rate_to(c, i));
+            between = ", ";
+        }
+    br_append(c->note, sizeof c->note, ", fall from %g to %g, as those of a sum of two powers do",
+              c->expected.highest, c->expected.order);
+}
+
 static void judge_order(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
@@ -414,9 +449,12 @@ static void judge_order(struct br_case *c)
     end_rates(c, &first, &last);
     br_order_text(&c->order, text, sizeof text);
     c->margin = fmin(c->order.low - low, high - c->order.high);
-    if ((c->order.low >= low && c->order.high <= high) || falls_by_two(c, low, high))
+    const bool within = c->order.low >= low && c->order.high <= high;
+    if (within || falls_by_two(c, low, high)) {
         conclude(c, BR_PASS, "%s", "");
-    else if (c->high99 < low || c->low99 > high) {
+        if (!within)
+            note_two(c);
+    } else if (c->high99 < low || c->low99 > high) {
         conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
                  c->high99 < low ? "below" : "above", low, high);
         advise(c);

@@ -710,6 +710,26 @@ double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
     return sqrt(square < 0 ? 0 : square); /* NaN stays */
 }
 
+/* Where the errors of both axes subtract, an order inside the interval may show the least error. */
+struct br_estimate br_joint_band(const struct br_joint_fit *fit, enum br_axis axis, double middle,
+                                 const double x[BR_AXES], const double ref[BR_AXES])
+{
+    enum { ORDERS = 32 }; /* of the interval, from end to end; the last one is the order itself */
+    const struct br_estimate *order = &fit->order[axis];
+    struct br_estimate e = {NAN, NAN, NAN};
+    for (size_t i = 0; i <= ORDERS + 1; i++) {
+        struct br_joint_fit other = *fit;
+        double *p = &other.order[axis].value;
+        if (i <= ORDERS)
+            *p = order->low + (double)i / ORDERS * (order->high - order->low);
+        other.c[axis].value *= pow(middle, order->value - *p);
+        e.value = br_joint_model(&other, x, ref);
+        e.low = fmin(e.low, e.value); /* without the NaN of before */
+        e.high = fmax(e.high, e.value);
+    }
+    return e;
+}
+
 /* ---- one model, or the mixture ---- */
 
 static int by_weight(const void *a, const void *b)

@@ -44,6 +44,11 @@ bool br_joint_describes(const struct br_joint_fit *fit);
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
                       const double ref[BR_AXES]);
 
+/* The same, with its band over the interval of the order in an axis: by models with the same error
+ * of that axis at size `middle`. */
+struct br_estimate br_joint_band(const struct br_joint_fit *fit, enum br_axis axis, double middle,
+                                 const double x[BR_AXES], const double ref[BR_AXES]);
+
 /* ---- the joint model, fitted to the logarithms of the errors ---- */
 
 /* One cell, as the fit needs it. */

@@ -218,11 +218,10 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
         snprintf(c->position, sizeof c->position, "%zu", i + 1);
         c->label = c->name ? c->name : c->position;
         weigh_name(c);
-        if (c->name &&
-            (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
+        if ((br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
             !c->stated && c->named < BR_USUAL_NAME)
             c->role = BR_ROLE_ERROR;
-        c->is_value = c->name && br_lists(r->wishes->values, c->name);
+        c->is_value = br_lists(r->wishes->values, c->name);
         gci |= c->name && strcasestr(c->name, "gci");
     }
     find_deviations(r);
@@ -680,8 +679,7 @@ static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
 
 static bool is_asked(const struct br_roles *r, const struct br_role_column *c)
 {
-    return c->name &&
-           (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name));
+    return br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name);
 }
 
 static const char *why_aside(const struct br_roles *r, size_t i)

@@ -167,7 +167,7 @@ static const struct br_series *add_order(const struct br_seen_order *o, const ch
                                          struct br_figure *f)
 {
     const struct br_fitted_series s = br_fitted_series_add(f, name);
-    for (const struct br_seen_point *p = o->point; p < o->point + o->points; p++)
+    for (const struct br_point *p = o->point; p < o->point + o->points; p++)
         br_fitted_point_add(&s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
                             p->flag ? br_flag_name(p->flag) : NULL, p->fit.value, p->fit.low);
     for (size_t i = o->points; i-- > 0;)

@@ -1,36 +1,51 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/fit/fit.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "solver/scene.h"
 
 const double br_flag_margin = 3;
 
-static bool usable(const struct br_cell *c, enum br_part part)
+enum br_status br_fit_numbers(const struct br_study *s, enum br_part part, struct br_numbers *n,
+                              struct br_error *err)
 {
-    return c->flag[part] == BR_FLAG_NONE && c->error[part] > 0 && isfinite(c->error[part]);
+    static const char *const columns[BR_AXES] = {"n", "k"};
+    *n = (struct br_numbers){.powers = true};
+    if (br_numbers_make_room(n, br_study_cells(s), 1, err) ||
+        br_numbers_add_quantity(n, br_part_names[part], s->norm->unit, false, err))
+        return err->status;
+    n->quantity->digits = DBL_DECIMAL_DIG;
+    for (int axis = 0; axis < BR_AXES; axis++)
+        n->column[axis] = br_resolution_column_find(columns[axis]);
+    for (size_t i = 0; i < n->rows; i++) {
+        const struct br_cell *c = &s->cell[i];
+        struct br_numbers_row *row = &n->row[i];
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            row->z[axis] = br_axis_size(s->scene, axis, c->at);
+            row->against[axis] = br_axis_size(s->scene, axis, c->against);
+        }
+        row->given[BR_AXIS_SPACE] = (double)c->at.n;
+        row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME];
+        row->number[0] = c->error[part];
+        row->out[0] = c->flag[part];
+    }
+    return BR_OK;
 }
 
 static enum br_status fit_joint(const struct br_study *s, enum br_part part,
                                 struct br_joint_fit *fit, struct br_error *err)
 {
-    struct br_observation *o = br_allocate(br_study_cells(s), sizeof *o);
-    if (!o)
-        return br_no_memory(err, "the fits");
-    size_t count = 0;
-    for (size_t i = 0; i < br_study_cells(s); i++) {
-        const struct br_cell *c = &s->cell[i];
-        if (!usable(c, part))
-            continue;
-        for (int axis = 0; axis < BR_AXES; axis++) {
-            o[count].x[axis] = br_axis_size(s->scene, axis, c->at);
-            o[count].ref[axis] = br_axis_size(s->scene, axis, c->against);
-        }
-        o[count++].error = c->error[part];
-    }
-    const enum br_status status = br_joint_fit_solve(o, count, false, NULL, fit, err);
-    free(o);
+    struct br_numbers numbers;
+    struct br_orders orders = {0};
+    enum br_status status = br_fit_numbers(s, part, &numbers, err);
+    if (!status)
+        status = br_orders_find(&numbers, 0, &orders, err);
+    if (!status)
+        *fit = orders.of->joint;
+    br_orders_clear(&orders);
+    br_numbers_clear(&numbers);
     return status;
 }
 

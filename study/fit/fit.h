@@ -4,7 +4,7 @@
 #define BR_STUDY_FIT_FIT_H
 
 #include "base/observer.h"
-#include "orders/grid/joint_fit.h"
+#include "orders/orders.h"
 #include "study/grid/study.h"
 
 struct br_fits {
@@ -12,10 +12,15 @@ struct br_fits {
     double reference_error; /* the reference's own error, m^(3/2); NaN: not known */
 };
 
+/* One component of a study's errors with its flags, as numbers of anybody. Fails with BR_NO_MEMORY
+ * or BR_BAD_INPUT (more than BR_MOST_ROWS cells); clear them even then. */
+enum br_status br_fit_numbers(const struct br_study *study, enum br_part part,
+                              struct br_numbers *numbers, struct br_error *err);
+
 /* Fits one component of a study's errors without the flagged cells, and sets the flags of this
  * component: of cells whose error is less than br_flag_margin times what limits it. The reference's
  * own error comes from the fit, so both are repeated until no flag changes. A fit that cannot be
- * done is NaN. Fails with BR_NO_MEMORY. */
+ * done is NaN. Fails as br_fit_numbers. */
 enum br_status br_fit(struct br_study *study, enum br_part part, struct br_fits *fits,
                       struct br_error *err);
 /* Sets the flags of a study that is shown but not fitted. A reference's own error that needs the

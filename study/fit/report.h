@@ -8,14 +8,6 @@
 
 enum { BR_MOST_TRIANGLES = 4, BR_MOST_SEEN = 12 };
 
-/* An error, or a difference, that an order was sought in. */
-struct br_seen_point {
-    double z, error;        /* h or k, m or s; in the norm's unit */
-    enum br_flag flag;      /* why it does not count; BR_FLAG_NONE: it does */
-    struct br_estimate fit; /* the fitted line there, and its band, which the ends of the order's
-                               interval make; NaN: there is no order */
-};
-
 /* The order of one component of the errors in h or in k, as far as it can be believed. */
 struct br_seen_order {
     bool asked; /* false: what is compared has the same h (or k), or the scheme chooses its own
@@ -23,9 +15,10 @@ struct br_seen_order {
     struct br_estimate order; /* NaN: none is claimed, and the remark says why */
     bool joint;               /* it is that of the joint fit */
     struct br_theory theory;
-    char by[80];      /* the errors that it comes from */
-    char remark[400]; /* how it compares to theory, or why none is claimed */
-    struct br_seen_point point[BR_MOST_SEEN]; /* from coarse to fine: the finest ones */
+    char by[80];                         /* the errors that it comes from */
+    char remark[400];                    /* how it compares to theory, or why none is claimed */
+    struct br_point point[BR_MOST_SEEN]; /* the errors, or differences, that it was sought in, from
+                                            coarse to fine: the finest ones */
     size_t points;
 };
 

@@ -22,8 +22,10 @@ static enum br_status split_unit(struct br_scene_value *v, char text[MOST_TEXT],
         snprintf(word, sizeof word, "%s", bracket + 1);
     char *end = strchr(word, ']');
     if (!end || end == word || end[1])
-        return BR_REFUSE_VALUE(
-            v, "found '%s', expected an expression and its unit, like 'x*t [%s]'", whole, v->unit);
+        return BR_REFUSE_VALUE(v,
+                               "found '%s', expected an expression and its unit in brackets, like "
+                               "'x*t [%s]'",
+                               whole, v->unit);
     *end = '\0';
     const enum br_status status = br_scene_read_unit(v, word, found);
     if (status)

@@ -27,6 +27,28 @@ static enum br_status read_key(const struct br_scene_reader *r, const struct br_
     return br_scene_read_value(r, key, value);
 }
 
+/* "; did you mean 'coefficient'?" of a symbol that stands for a key; else "". Returns text (out).
+ */
+static const char *key_of_symbol(const char *section, const char *symbol, char text[BR_SUGGESTION])
+{
+    static const struct {
+        const char *section, *symbol, *key;
+    } known[] = {
+        {"", "L", "length"},
+        {"", "T", "duration"},
+        {"", "rho", "density"},
+        {"", "E", "young"},
+        {"axial", "EA", "stiffness"},
+        {"bending", "EI", "stiffness"},
+        {"friction", "mu", "coefficient"},
+    };
+    *text = '\0';
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strcmp(known[i].section, section) == 0 && strcmp(known[i].symbol, symbol) == 0)
+            br_append(text, BR_SUGGESTION, "; did you mean '%s'?", known[i].key);
+    return text;
+}
+
 static enum br_status read_entry(const struct br_scene_reader *r, const char *section,
                                  const yaml_node_t *name, const yaml_node_t *value)
 {
@@ -34,7 +56,7 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
         return br_scene_refuse(r, br_yaml_line(name), *section ? section : "scene",
                                "a key must be a word");
     const char *names[BR_MOST_SCENE_KEYS];
-    char expected[BR_EXPECTED];
+    char expected[BR_EXPECTED], meant[BR_SUGGESTION];
     size_t count = 0;
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         if (strcmp(k->section, section) != 0)
@@ -45,9 +67,10 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
                        ? br_scene_refuse(r, br_yaml_line(name), k->name, "given twice")
                        : read_key(r, k, name, value);
     }
-    return br_scene_refuse(r, br_yaml_line(name), br_yaml_text(name), "unknown key%s%s, %s",
+    return br_scene_refuse(r, br_yaml_line(name), br_yaml_text(name), "unknown key%s%s, %s%s",
                            *section ? " in " : "", section,
-                           br_expected(br_yaml_text(name), names, count, expected));
+                           br_expected(br_yaml_text(name), names, count, expected),
+                           key_of_symbol(section, br_yaml_text(name), meant));
 }
 
 static enum br_status check_required(const struct br_scene_reader *r, const char *section,

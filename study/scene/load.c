@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/load.h"
 #include "base/quote.h"
 #include "base/words.h"
 #include "study/scene/file.h"
@@ -45,7 +46,8 @@ static enum br_status refuse(const char *name, const char *path, struct br_error
 {
     char **names, suggestion[BR_SUGGESTION] = "";
     size_t count;
-    if (!br_scene_list(&names, &count, NULL))
+    const enum br_status listed = br_scene_list(&names, &count, NULL);
+    if (!listed && !*br_suggest_file(name, suggestion))
         br_suggestion(name, (const char *const *)names, count, suggestion);
     const enum br_status status =
         br_fail(err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)%s",

@@ -21,10 +21,9 @@ enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps
     const double whole = round(ratio);
     if (!(fabs(ratio - whole) <= 1e-9 * whole))
         return br_fail(err, BR_BAD_INPUT,
-                       "k = %.10g s does not divide the duration of %g s; the nearest that do are "
-                       "%.10g and %.10g",
-                       k, scene->duration, scene->duration / floor(ratio),
-                       scene->duration / ceil(ratio));
+                       "k = %.10g s does not divide the duration of T = %g s; the nearest that do "
+                       "are T/%.0f and T/%.0f",
+                       k, scene->duration, floor(ratio), ceil(ratio));
     *steps = (size_t)whole;
     return BR_OK;
 }

@@ -161,8 +161,9 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
     const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
     const size_t blanks = strspn(behind, " ");
     if (behind == text || (*behind && *behind != ' ') || !isfinite(value) || length >= MOST_UNIT)
-        return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s",
-                               br_yaml_text(v->node), v->unit);
+        return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
+                               br_yaml_text(v->node), v->unit,
+                               *behind == ',' ? ", with a point before decimals" : "");
     snprintf(word, sizeof word, "%.*s", (int)length, behind);
     const enum br_status status =
         br_scene_read_unit(v, word + (blanks < length ? blanks : length), &unit);

@@ -99,7 +99,7 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
     if (differ && pairs)
         br_put_answer(
             d,
-            "No choice of reference explains this: at least %zu pair%s of printed errors violate%s "
+            "No reference solution could produce the printed errors: at least %zu pair%s of them violate%s "
             "the triangle inequality.",
             pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }

@@ -99,6 +99,29 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
     br_put_more(d, *before == ',' ? "." : "");
 }
 
+/* "Estimated error: 0.057 % of the solution (0.016 to 0.18 %), nearly all from the time steps". */
+static void answer_error(struct br_document *d, const struct br_prediction *p)
+{
+    enum { NEARLY_ALL = 10 };
+    const struct br_predicted *e = &p->whole;
+    const bool percent = e->error >= 1e-4;
+    const double in = percent ? 100 : 1;
+    const char *unit = percent ? " %" : "";
+    br_put_answer(d, "Estimated error: %.2g%s of the solution", in * e->error, unit);
+    if (isfinite(e->high))
+        br_put_more(d, " (%.2g to %.2g%s)", in * e->low, in * e->high, unit);
+    else
+        br_put_more(d, " (at least %.2g%s, perhaps more than the solution)", in * e->low, unit);
+    if (p->time.error > NEARLY_ALL * p->space.error)
+        br_put_more(d, ", nearly all from the time steps");
+    else if (p->space.error > NEARLY_ALL * p->time.error)
+        br_put_more(d, ", nearly all from the elements");
+    else
+        br_put_more(d, ", %.2g%s from the time steps and %.2g%s from the elements",
+                    in * p->time.error, unit, in * p->space.error, unit);
+    br_put_more(d, "; round-off %.1g.", p->round_off);
+}
+
 static void put_answers(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
@@ -107,15 +130,8 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
         br_put_answer(d, "STOPPED: %s", r->failure.message);
     answer_tip(d, f);
 
-    char interval[BR_PREDICTED_TEXT];
     if (f->prediction->known)
-        br_put_answer(d,
-                      "Predicted before the march, for each field relative to its largest L2 norm: "
-                      "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is the "
-                      "estimated error of the tip.",
-                      br_predicted_interval(&f->prediction->whole, interval),
-                      f->prediction->time.error, f->prediction->space.error,
-                      f->prediction->round_off);
+        answer_error(d, f->prediction);
     else if (f->prediction->bounded)
         br_put_answer(d,
                       "The discretisation error is not known (between %.0e and %.0e): %s; "

@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How often is an observed order right? Random lines of errors of each class (errors.c), and grids
  * of them (grids.h), their orders and verdicts, and limits of values. As a test, 12 lines a class
- * of seed 1 (--long: 300), and a quarter of that of grids, with bounds; it prints claims   an
- * interval above 0 and at most 1 wide; of limits: one is stated covers   of the claims: the
- * interval holds the truth, or both where two orders are as likely silent   of all: claims, misses
- * the truth by more than 0.005, and says nothing of the rows PASS, FAIL   verdicts on the true
- * order +- 0.1; else INCONCLUSIVE false    PASS on an order that is 0.4 too low or 0.5 too high, or
- * on that of the coarse rows narrow   of all: claims, does not cover, and is narrower than 0.01
- *   width    of the interval over that of a regression of all rows, the median; of limits: half of
- *            it over the distance of the finest value
+ * of seed 1 (--long: 300), and a quarter of that of grids, with bounds.
+ *
+ * Its columns are % of the lines:
+ *
+ * - claims: an interval above 0 and at most 1 wide; of limits: one is stated.
+ * - covers, of the claims: the interval holds the truth, or both where two orders are as likely.
+ * - silent: claims, misses the truth by more than 0.005, and says nothing of the rows.
+ * - PASS, FAIL: verdicts on the true order +- 0.1; the rest is INCONCLUSIVE.
+ * - false: PASS on an order that is 0.4 too low or 0.5 too high, or on that of the coarse rows.
+ * - narrow: claims, does not cover, and is narrower than 0.01.
+ * - width: of the interval over that of a regression of all rows, the median; of limits: half of
+ *   it over the distance of the finest value.
+ *
  * compare: beside the methods of others (others.c), as tables of docs/observed-orders.md.
  * usage: orders [SEED LINES [CLASS | published | compare]] */
 #include <gsl/gsl_cdf.h>
@@ -20,10 +25,10 @@
 
 #include "orders/line/laws.h"
 #include "orders/orders.h"
+#include "tests/checks.h"
 #include "tests/lab/grids.h"
 #include "tests/lab/others.h"
 #include "tests/lab/published.h"
-#include "tests/checks.h"
 
 enum { SAMPLE = 12, MANY = 300, MOST_LINES = 100000 };
 
@@ -229,8 +234,8 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
         struct br_case c;
         const struct br_estimate *order = &o.of[0].answer[axis].order;
         const double truth = g.order[axis], expected = isnan(truth) ? 2 : truth;
-        bool wrong = verdict_of(&o, axis, index % 2 == 0 ? expected + 0.5 : expected - 0.4, &c) ==
-                     BR_PASS;
+        bool wrong =
+            verdict_of(&o, axis, index % 2 == 0 ? expected + 0.5 : expected - 0.4, &c) == BR_PASS;
         wrong = isnan(g.other[axis]) ? wrong : verdict_of(&o, axis, g.other[axis], &c) == BR_PASS;
         t->wrong_pass += wrong;
         t->contradicts += verdict_of(&o, axis, expected, &c) == BR_FAIL && !isfinite(order->value);

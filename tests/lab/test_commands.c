@@ -50,7 +50,7 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
     if (refused)
         same = same && says(out.output, verdict->why);
     else
-        same = same && strstr(out.output, verdict->known ? "largest L2 norm: discretisation error "
+        same = same && strstr(out.output, verdict->known ? "Estimated error: "
                                                          : "The discretisation error is not known");
     if (!same)
         fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
