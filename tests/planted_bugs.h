@@ -1091,7 +1091,7 @@ static const struct planted_bug planted_bugs[] = {
     {"drifts_are_not_said", "printed", "orders/expectation/verdict.c", "tests/test_verdict test_notes",
      "if (drifts(c, off, log_ratio))", "if (!drifts(c, off, log_ratio))"},
     {"errors_that_grow_are_another_solution", "wrong", "orders/expectation/verdict.c",
-     "tests/test_verdict test_turning", "rate < grows && next < grows", "rate < -30 && next < grows"},
+     "tests/test_verdict test_turning", "next < grows && (rate < grows", "next < -30 && (rate < grows"},
     {"laws_are_not_said", "printed", "orders/expectation/verdict.c", "tests/test_verdict test_notes",
      "found.law[law] > 0.5 ?", "found.law[law] > 5 ?"},
     {"sizes_without_a_finer_one", "printed", "orders/expectation/verdict.c",
