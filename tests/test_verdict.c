@@ -251,7 +251,7 @@ TEST(test_any_unit)
 /* What would settle a verdict is a line for the part `verify` of a scene, or the row to add. */
 TEST(test_sizes)
 {
-    static const double error[] = {1, .52, .27, .143};
+    static const double error[] = {1, .52, .271, .1435};
     struct made m;
     make(&m, error, 4);
     reach(&m, BR_INCONCLUSIVE, "; add a row finer than (n = 80, k = T/800)");
@@ -309,7 +309,7 @@ TEST(test_turning)
 /* What is advised would do. */
 TEST(test_advice)
 {
-    static const double error[] = {1, .52, .27, .143};
+    static const double error[] = {1, .52, .271, .1435};
     struct made m;
     make(&m, error, 4);
     reach(&m, BR_INCONCLUSIVE, "a tolerance of 0.11 would include it");

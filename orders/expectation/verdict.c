@@ -280,7 +280,7 @@ static bool blows_up(const struct br_case *c)
 static const struct br_point *turning_point(const struct br_case *c)
 {
     enum { LEAST = 4 };
-    static const double grows = -0.25, scatter = 0.1, deep = 1e-6;
+    static const double grows = -0.25, stays = 0.2, scatter = 0.1, deep = 1e-6;
     double rate = NAN, fell = NAN, turn = NAN;
     for (size_t i = 1; i < c->points; i++) {
         const double next = br_point_rate(&c->point[i - 1], &c->point[i]);
@@ -290,7 +290,7 @@ static const struct br_point *turning_point(const struct br_case *c)
         fell = turn, turn = turned;
         if (i + 1 < c->points)
             rate = next;
-        else if (!(rate < grows && next < grows && turn > 0.6 * fell))
+        else if (!(next < grows && (rate < grows || (rate < stays && turn > fell))))
             return NULL;
     }
     const struct br_point *last = c->point + c->points - 1;
@@ -447,6 +447,8 @@ static void judge_order(struct br_case *c)
     const struct br_expectation *e = &c->expected;
     const double low = e->order - e->tolerance, high = fmax(e->order, e->highest) + e->tolerance;
     char text[64];
+    double first, last;
+    end_rates(c, &first, &last);
     br_order_text(&c->order, text, sizeof text);
     c->margin = fmin(c->order.low - low, high - c->order.high);
     const bool within = c->order.low >= low && c->order.high <= high;
@@ -461,7 +463,12 @@ static void judge_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
-    } else if (isfinite(c->factor.value))
+    } else if (first < last && last <= high)
+        conclude(c, BR_INCONCLUSIVE,
+                 "the orders from size to size rise to %.2f: finer grids would show "
+                 "whether they stop there",
+                 last);
+    else if (isfinite(c->factor.value))
         conclude(c, BR_FAIL,
                  "the errors fall exponentially, by no order: one more of 1/%s divides them by %s",
                  c->kind == BR_VERIFY_TIME ? "k" : "h",

@@ -38,6 +38,7 @@ struct br_error_class {
 };
 extern const struct br_error_class br_error_classes[];
 extern const struct br_error_class br_limit_classes[];  /* of values, for their limits */
+extern const struct br_error_class br_later_classes[];  /* unseen at first (unseen.c) */
 extern const struct br_error_class br_unseen_classes[]; /* chosen after the laws (unseen.c) */
 
 #endif
