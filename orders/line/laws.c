@@ -118,7 +118,5 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
 double br_law_log_prior(const struct br_family *f, double parameter, double z)
 {
     const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(z, f->s) > 0.8;
-    if (f->law == BR_LAW_LOGARITHM)
-        return -log1p(pow((parameter - log(z)) / br_priors.logarithm, 4));
     return crosses ? log(br_priors.passes_zero) : 0;
 }

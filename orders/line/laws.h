@@ -80,7 +80,6 @@ extern BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES];
     X(truncation, 0.01, 0, "a correction c is known to this share of c: there is another term")   \
     X(next_term, 0.03, 0, "and to this share of c^2")                                             \
     X(passes_zero, 0.15, 1, "a next term of opposite sign passes zero within the rows")           \
-    X(logarithm, 4, 1e9, "of the coarsest size: rarely is it finer than exp(-4) of the domain")   \
     X(least_order, 0.25, 0, "a smaller order, with a correction, is the law of a floor")
 
 struct br_priors {
