@@ -127,7 +127,7 @@ void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct
     const double freedom = (double)s->rows - 2 - curved + s->freedom;
     if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
-    const bool by_chance = freedom < 2 && of->law != BR_LAW_POWER;
+    const bool by_chance = freedom < 2 && of->law != BR_LAW_POWER && of->law != BR_LAW_KINK;
     const double seen =
         fmax(fmax(all->within_cell, by_chance ? chance : 0),
              curved && of->law != BR_LAW_KINK ? br_priors.least_curved : br_priors.least_scatter);
