@@ -21,7 +21,7 @@ BR_PRIOR_CONST struct br_priors br_priors = {
 
 #define NEXT_TERM(s, share, why)                            \
     {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0, why},     \
-        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share), 0, why},  \
+        {BR_LAW_LOWER, s, 0.1, 3, 0.05 * (share), 0, why},  \
     {                                                       \
         BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0, why \
     }

@@ -71,6 +71,7 @@ extern BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES];
     X(usual_scatter, 0.15, 1e9, "errors of a computation rarely scatter by more")                 \
     X(least_scatter, 1e-7, 1e-12, "no law describes logarithms of errors better than that")       \
     X(least_curved, 5e-4, 1e-12, "nor one with two corrections: more terms always fit")           \
+    X(most_curved, 0.5, 1e9, "a second correction is a next term: so much of the coarsest error") \
     X(absolute, 0.25, 0, "the scatter of values is the same on all rows, not relative")           \
     X(values_stay, 0.1, 1, "differences that stay: the share of the prior of a floor of errors")  \
     X(shared, 1.3, 1, "neighbouring differences share a value: their scatter is not independent") \

@@ -148,6 +148,8 @@ void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double scatter = all->few ? 0 : left / freedom;
     p.curve = curved ? (yq - xy / xx * xq) / (qq * s->unit * s->unit) : p.curve;
+    if (curved && p.law != BR_LAW_KINK && !(fabs(p.curve) * s->unit < br_priors.most_curved))
+        return;
     if (curved && p.law != BR_LAW_KINK)
         least += (least_scatter(fmin(1, fabs(p.curve) * s->unit)) - br_priors.sure);
     const double variance = scatter + least * least * all->finest;
