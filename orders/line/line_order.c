@@ -408,12 +408,20 @@ static enum br_status take_left(const struct br_mixture *all, const struct br_ro
     return BR_OK;
 }
 
-/* Values whose differences fall by a smaller order may grow as log log n. */
-static const double least_convergence = 0.3, surely_falls = 0.1;
+/* Orders below the first are none. Values whose differences show less than the second, and may show
+ * none, have no limit. */
+static const double surely_falls = 0.1, least_convergence = 0.5;
 
-/* No law with a correction has an order below that of a floor, so that errors which fall as the
- * inverse of a logarithm take the next larger orders: then the order may be zero, too. */
-static const double small = 0.4;
+/* Whether the order may be zero. No law with a correction has an order below that of a floor, so
+ * that what falls as the inverse of a logarithm takes the next larger orders. */
+static bool may_stay(const struct br_line_order *found, bool values)
+{
+    static const double small = 0.4, smallest = 0.3;
+    const struct br_estimate *order = &found->order;
+    if (found->law[BR_LAW_POWER] > 0.5) /* values may grow as log log n */
+        return values && order->value < smallest && !(order->low > surely_falls);
+    return order->low < small;
+}
 
 static void describe(struct br_mixture *all, const struct br_rows *r, double finest,
                      struct br_line_order *found)
@@ -429,13 +437,8 @@ static void describe(struct br_mixture *all, const struct br_rows *r, double fin
     const struct br_law_part *likely = &all->part[0];
     if (exponential)
         find_rate(all, r, finest, found);
-    else if (!all->few) {
+    else if (!all->few)
         found->order = br_mixture_estimate(all, &found->low99, &found->high99);
-        if (found->order.low > 0 && found->order.low < small && !(found->law[BR_LAW_POWER] > 0.5)) {
-            found->order.low = 0;
-            found->low99 = -surely_falls;
-        }
-    }
     found->converges = exponential ? 1 : 1 - br_mixture_below(all, all->few ? 0.2 : surely_falls);
     found->diverges = exponential ? 0 : br_mixture_below(all, 0);
     for (size_t i = 0; i < all->count; i++) { /* differences that stay make a logarithm */
@@ -443,12 +446,10 @@ static void describe(struct br_mixture *all, const struct br_rows *r, double fin
         if (isfinite(all->far) && (law == BR_LAW_FLOOR || law == BR_LAW_FLOOR_SQUARES))
             found->converges -= all->part[i].weight;
     }
-    if (found->order.value < least_convergence) {
-        found->converges = 0;
-        if (isfinite(all->far)) {
-            found->order.low = fmin(found->order.low, 0);
-            found->low99 = fmin(found->low99, 0);
-        }
+    if (may_stay(found, isfinite(all->far))) {
+        found->converges = found->order.value < least_convergence ? 0 : found->converges;
+        found->order.low = fmin(found->order.low, 0);
+        found->low99 = fmin(found->low99, -surely_falls);
     }
     found->first = r->index[likely->first];
     found->last = r->index[likely->last];
