@@ -56,7 +56,7 @@ extern BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES];
  * chosen on seeds that no published table uses. */
 #define BR_PRIOR_LIST(X)                                                                          \
     X(power, 0.45, 0, "the probability of one power alone")                                       \
-    X(drifts, 0.1, 0, "the constant of one power drifts from row to row, as on adaptive meshes")  \
+    X(drifts, 0.2, 0, "the constant of one power drifts from row to row, as on adaptive meshes")  \
     X(kink, 0.01, 0, "one power, then another: exact ones alone show it")                         \
     X(kink_coarse, 0.3, 0, "the order is that of the coarse rows of such a line")                 \
     X(exponential, 0.01, 0, "exponential convergence, of each g")                                 \

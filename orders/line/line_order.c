@@ -410,7 +410,7 @@ static enum br_status take_left(const struct br_mixture *all, const struct br_ro
 
 /* Orders below the first are none. Values whose differences show less than the second, and may show
  * none, have no limit. */
-static const double surely_falls = 0.1, least_convergence = 0.5;
+static const double surely_falls = 0.1, least_convergence = 0.55;
 
 /* Whether the order may be zero. No law with a correction has an order below that of a floor, so
  * that what falls as the inverse of a logarithm takes the next larger orders. */
