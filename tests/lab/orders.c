@@ -585,16 +585,12 @@ static void measure(const struct run *run, size_t lines, double m[MEASURES])
     m[LIMIT_WIDTH] = limit_width / (double)limits.widths;
 }
 
-/* A cell: what moves with this value of a prior, from what it is without. */
-static void print_moves(const struct run *run, size_t lines, double *prior, double value,
-                        const double before[MEASURES])
+/* A cell: what moves from what it was before. */
+static void print_moves(const struct run *run, size_t lines, const double before[MEASURES])
 {
-    const double kept = *prior;
     double m[MEASURES];
     bool moves = false;
-    *prior = value;
     measure(run, lines, m);
-    *prior = kept;
     for (size_t i = 0; i < MEASURES; i++) {
         const bool width = i == WIDTH || i == LIMIT_WIDTH;
         const double by = m[i] - before[i];
@@ -613,14 +609,39 @@ static void print_moves(const struct run *run, size_t lines, double *prior, doub
 static void print_prior(const struct run *run, size_t lines, const char *name, double *prior,
                         double off, const double before[MEASURES])
 {
-    printf("| %s, %g |", name, *prior);
-    const double values[] = {off, *prior / 2, *prior * 2};
-    for (size_t i = 0; i < 3; i++)
-        print_moves(run, lines, prior, values[i], before);
+    const double kept = *prior, values[] = {off, kept / 2, kept * 2};
+    printf("| %s, %g |", name, kept);
+    for (size_t i = 0; i < 3; i++) {
+        *prior = values[i];
+        print_moves(run, lines, before);
+    }
+    *prior = kept;
     printf("\n");
 }
 
-/* One row a prior: what moves without it, with half of it and with twice as much. */
+/* All laws beside one power and, if everything, all other priors. */
+static void scale(double by, bool everything)
+{
+    for (struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++)
+        f->prior *= by;
+#define X(row, value, off, why) br_priors.row *= everything ? by : 1;
+    BR_PRIOR_LIST(X)
+#undef X
+}
+
+static void print_all(const struct run *run, size_t lines, bool everything,
+                      const double before[MEASURES])
+{
+    printf("| *%s* | |", everything ? "all priors" : "all laws beside one power");
+    for (double by = 0.5; by < 3; by *= 4) {
+        scale(by, everything);
+        print_moves(run, lines, before);
+        scale(1 / by, everything);
+    }
+    printf("\n");
+}
+
+/* One row a prior: what moves without it, with half of it and with twice as much; then all. */
 static void print_priors(const struct run *run, size_t lines)
 {
     double before[MEASURES];
@@ -629,6 +650,8 @@ static void print_priors(const struct run *run, size_t lines)
     for (size_t i = 0; i < MEASURES; i++)
         printf("# %s %.2f\n", measure_names[i], before[i]);
     printf("| prior | without | half | twice |\n|---|---|---|---|\n");
+    print_all(run, lines, true, before);
+    print_all(run, lines, false, before);
 #define X(row, value, off, why) print_prior(run, lines, #row, &br_priors.row, off, before);
     BR_PRIOR_LIST(X)
 #undef X
