@@ -1405,7 +1405,7 @@ static const struct planted_bug planted_bugs[] = {
     {"limit_of_one_direction", "lost", "orders/limits/limits.c",
      "tests/test_orders test_limit_of_a_grid", "left += rest;", "left = rest;"},
     {"limit_of_order_zero", "tolerance", "orders/line/line_order.c",
-     "tests/test_grid_convergence test_sequence_kinds",
+     "tests/test_grid_convergence test_small_orders",
      "value < least_convergence ? 0 :", "value < -9 ? 0 :"},
     {"problem_without_expectations", "expected", "orders/request.c", "tests/test_orders",
      "e->order, e->tolerance, e->down_to);\n        add_text(&sum, text);",
