@@ -206,7 +206,8 @@ static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
     else if (s->is_volume && c->size.dimension > 1)
         snprintf(text, TEXT, "h = %s^(-1/%g)", name, c->size.dimension);
     else if (s->is_size)
-        snprintf(text, TEXT, "%s from %s", br_axis_letters[s->axis], name);
+        snprintf(text, TEXT, "%s from %s%s", br_axis_letters[s->axis], nameless ? "" : "column ",
+                 name);
     else if (s->is_power)
         snprintf(text, TEXT, "h = 2^-%s", name);
     else
@@ -406,7 +407,7 @@ static enum br_status refuse_growth(const struct contest *t, const struct br_can
     shown_name(r, best->size.column, name);
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s: the errors grow where %s (%s) gets finer: rates%s; --column '%s=%s', if %s is %s",
+        "%s: the errors grow as %s gets finer (%s): rates%s; --column '%s=%s', if %s is %s",
         r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, true, reading), rates, name,
         best->size.states->is_size ? "n" : "h", name,
         best->size.states->is_size ? "a count" : "a size");
