@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The map of extremes: scenes, methods and resolutions that are drawn from a seed to break the
- * program, and who judges them. map.c counts, test_map.c replays cases that were wrong once. */
+ * program, and what checks them. map.c counts, test_map.c replays cases that were wrong once. */
 #ifndef BR_TESTS_LAB_MAP_H
 #define BR_TESTS_LAB_MAP_H
 
@@ -76,7 +76,7 @@ void br_extreme_scene(const struct br_extreme_case *one, char text[BR_EXTREME_TE
 void br_extreme_command(const struct br_extreme_case *one, const char *name,
                         char text[BR_EXTREME_COMMAND]);
 
-/* ---- who judges ---- */
+/* ---- what checks ---- */
 
 /* Tests for one case that a march is right, or that the program says that it is not.
  *
@@ -124,14 +124,14 @@ double br_extreme_beyond(double error, double slack, double stated);
  * beyond the stated one. */
 enum br_extreme_class br_extreme_class_of(const struct br_extreme_verdict *verdict, double beyond);
 
-/* How judging is done; zeros: as the map does. */
+/* How a case is checked; zeros: as the map does. */
 struct br_extreme_options {
     bool quick;            /* without the exact solution */
     double stated_divisor; /* divides the stated errors, so that tests see what is called wrong; 0:
                               as stated */
 };
 
-/* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */
+/* Checks a case; *verdict (out). Fails with BR_NO_MEMORY. */
 enum br_status br_extreme_check(const struct br_extreme_case *one,
                                 const struct br_extreme_options *options,
                                 struct br_extreme_verdict *verdict, struct br_error *err);
