@@ -91,7 +91,7 @@ enum br_status br_trials_estimate(struct br_trial *trial, size_t count,
                                   struct br_trial_forecast *forecast, struct br_error *err);
 
 /* Creates a reference, *self (out), that keeps its results for all later calls; NULL: not needed.
- * Fails as the reference does; forget it even then. */
+ * Fails as the reference does; release it even then. */
 enum br_status br_trials_prepare_reference(const struct br_trial_request *request, void **self,
                                            struct br_error *err);
 void br_trials_release_reference(const struct br_trial_request *request,

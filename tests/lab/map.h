@@ -108,16 +108,17 @@ extern const char *const br_extreme_sources[];
 struct br_extreme_verdict {
     enum br_extreme_class which;
     enum br_extreme_by by;
-    bool known;      /* the run states its error */
-    double error;    /* of displacements, over the largest; NaN: not known */
-    double nearest;  /* the error of the field that is nearest to its stated bound or furthest beyond
-                        it; NaN: not compared */
-    double stated;   /* the stated bound of that field's error; INFINITY: no bound; NaN: not compared */
+    bool known;     /* the run states its error */
+    double error;   /* of displacements, over the largest; NaN: not known */
+    double nearest; /* the error of the field that is nearest to its stated bound or furthest beyond
+                       it; NaN: not compared */
+    double stated;  /* that bound; INFINITY: no bound; NaN: not compared */
     unsigned warned; /* bits: 1 << br_warning_kind */
     char why[200];   /* the reason why it is not right; one line */
 };
 
-/* An error over the stated one, where it is larger than that and the slack of the reference; else 0. */
+/* An error over the stated one, where it is larger than that and the slack of the reference; else
+ * 0. */
 double br_extreme_beyond(double error, double slack, double stated);
 
 /* The class of an answer by the members by, known, error and warned, and by how far an error is

@@ -26,9 +26,8 @@ struct trial {
     struct br_track_samples samples;
     struct br_track *own, *other;
     struct br_prediction prediction;
-    double
-        reference_error[2]; /* of the march that checks, by br_field_kind, relative; 0: not known */
-    double beyond;          /* an error over the stated one, if it is larger; otherwise 0 */
+    double reference_error[2]; /* of the other march, by br_field_kind, relative; 0: not known */
+    double beyond;             /* an error over the stated one, if it is larger; otherwise 0 */
     struct br_warnings warnings;
     bool done;
 };
