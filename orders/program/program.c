@@ -66,8 +66,8 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
-/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. A row is
- * of the files with which the study began, or it has failed. */
+/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not cached. A row
+ * is of the files with which the study began, or it has failed. */
 static enum br_status get_row(const struct job *j, const struct br_command_words *words,
                               const char *text, size_t i, struct br_error *err)
 {
@@ -83,7 +83,7 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
     }
     if (!err->status && text && !of.row->cached && !of.row->failure &&
         !br_cache_put(j->cache, text, pass_row, &of))
-        br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s", j->program->cache,
+        br_fail(err, BR_IO, "%.800s: a finished cell could not be cached: %s", j->program->cache,
                 strerror(errno));
     return err->status;
 }
@@ -265,7 +265,7 @@ static enum br_status check_commands(struct job *j, struct br_error *err)
     return status;
 }
 
-/* Cells are kept for all versions of beamrate. */
+/* Cells are cached for all versions of beamrate. */
 static enum br_status open_cache(struct job *j, struct br_error *err)
 {
     const char *folder = j->program->cache;
