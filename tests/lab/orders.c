@@ -552,7 +552,7 @@ static const char *const measure_names[MEASURES] = {"claims",         "covers", 
                                                     "FAIL",           "false PASS", "width",
                                                     "limits: claims", "covers",     "width"};
 
-static void add_classes(const struct run *run, const struct br_error_class *class, try_one *try,
+static void add_classes(const struct lab_run *run, const struct br_error_class *class, try_one *try,
                         size_t lines, struct tally *sum, double *log_width)
 {
     for (size_t i = 0; class[i].name; i++) {
@@ -567,7 +567,7 @@ static void add_classes(const struct run *run, const struct br_error_class *clas
     }
 }
 
-static void measure(const struct run *run, size_t lines, double m[MEASURES])
+static void measure(const struct lab_run *run, size_t lines, double m[MEASURES])
 {
     struct tally t = {0}, limits = {0};
     double width = 0, limit_width = 0;
@@ -586,7 +586,7 @@ static void measure(const struct run *run, size_t lines, double m[MEASURES])
 }
 
 /* A cell: what moves from what it was before. */
-static void print_moves(const struct run *run, size_t lines, const double before[MEASURES])
+static void print_moves(const struct lab_run *run, size_t lines, const double before[MEASURES])
 {
     double m[MEASURES];
     bool moves = false;
@@ -606,7 +606,7 @@ static void print_moves(const struct run *run, size_t lines, const double before
     fflush(stdout);
 }
 
-static void print_prior(const struct run *run, size_t lines, const char *name, double *prior,
+static void print_prior(const struct lab_run *run, size_t lines, const char *name, double *prior,
                         double off, const double before[MEASURES])
 {
     const double kept = *prior, values[] = {off, kept / 2, kept * 2};
@@ -629,7 +629,7 @@ static void scale(double by, bool everything)
 #undef X
 }
 
-static void print_all(const struct run *run, size_t lines, bool everything,
+static void print_all(const struct lab_run *run, size_t lines, bool everything,
                       const double before[MEASURES])
 {
     printf("| *%s* | |", everything ? "all priors" : "all laws beside one power");
@@ -642,7 +642,7 @@ static void print_all(const struct run *run, size_t lines, bool everything,
 }
 
 /* One row a prior: what moves without it, with half of it and with twice as much; then all. */
-static void print_priors(const struct run *run, size_t lines)
+static void print_priors(const struct lab_run *run, size_t lines)
 {
     double before[MEASURES];
     char name[64];
