@@ -84,7 +84,7 @@ struct br_numbers {
     double dimension;                  /* of the mesh, where unknowns or cells are counted */
     bool assumed;                      /* nobody stated it */
     bool samples;                      /* n counts samples, and not elements */
-    bool all_needed;       /* a verdict fails where a number is missing */
+    bool all_needed;                   /* a verdict fails where a number is missing */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
@@ -183,6 +183,9 @@ struct br_orders {
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
+
+/* Finds the answers along an axis anew, after its differences have changed in the numbers. */
+enum br_status br_orders_renew(struct br_orders *orders, enum br_axis axis, struct br_error *err);
 
 /* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the
  * finest, with their limits, but not their orders (lines.c, for br_orders_find). */

@@ -100,9 +100,10 @@ double br_orders_dimension(const struct br_orders_request *request,
 
 /* ---- tables ---- */
 
-/* The source: a table (orders/reading/roles.h says how it is read). Without errors and values in the
- * request, every column that falls as errors do is an error. Where a column tells several studies
- * apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is empty,
+/* The source: a table (orders/reading/roles.h says how it is read). Without errors and values in
+ * the request, every column that falls as errors do is an error. Where a column tells several
+ * studies apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is
+ * empty,
  * "-", "nan" or "***" is a run without a number. numbers->taken (out) says what was taken for what.
  */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,

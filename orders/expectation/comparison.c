@@ -119,8 +119,7 @@ static const struct br_case *find_case(const struct br_check *check, const struc
 /* Whether a limit has gone or moved outward; direction: 1 for an upper one, -1 for a lower one. */
 static bool is_looser(double before, double now, double direction)
 {
-    return before != now && !isnan(before) &&
-           !(direction * (now - before) <= 1e-9 * fabs(before));
+    return before != now && !isnan(before) && !(direction * (now - before) <= 1e-9 * fabs(before));
 }
 
 /* A band that is wider lets pass what failed before. */

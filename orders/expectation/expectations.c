@@ -76,14 +76,18 @@ static enum br_status take_band(const char **at, struct br_expectation *e, struc
                       err);
     const bool least = takes(at, ">=") || takes(at, "\u2265") || takes(at, "at least");
     if (!take_number(at, &e->order) || (e->exponential && !(e->order > 1)))
-        return refuse(*at, e->exponential ? "a factor above 1" : "an order above 0", err);
+        return refuse(
+            *at, e->exponential ? "a factor above 1" : "an order above 0, perhaps behind h or k",
+            err);
     if (least)
         return BR_OK;
     if (takes(at, "to") && !(take_number(at, &e->highest) && e->highest > e->order))
         return refuse(*at, "an order above the first", err);
     e->tolerance = e->order / 10;
-    if ((takes(at, "+-") || takes(at, "\u00b1")) &&
-        !(take_number(at, &e->tolerance) && e->tolerance < e->order))
+    const bool given = takes(at, "+-") || takes(at, "\u00b1");
+    if (!given && **at == '+')
+        return refuse(*at, "'+-'", err);
+    if (given && !(take_number(at, &e->tolerance) && e->tolerance < e->order))
         return refuse(*at,
                       "a tolerance above 0 and below the order, since the order 0 is that of "
                       "errors that do not fall",
@@ -200,6 +204,11 @@ enum br_status br_expectations_read(const char *text, size_t line,
             return err->status;
         strcpy(e->quantity, name);
         e->band.line = line;
+        for (const struct br_order_expectation *f = all; f < e; f++)
+            if (f->axis == e->axis && strcmp(f->quantity, name) == 0)
+                return br_fail(err, BR_BAD_INPUT, "the order of %s%s%s is given twice",
+                               *name ? name : "the errors", e->axis < BR_AXES ? " in " : "",
+                               e->axis < BR_AXES ? br_axis_letters[e->axis] : "");
         comma = takes(&at, ",");
         more = comma || takes(&at, ";");
     }

@@ -300,7 +300,8 @@ static const struct br_point *turning_point(const struct br_case *c)
     }
     const struct br_point *last = c->point + c->points - 1;
     const bool clear = c->points > LEAST && last->error > deep * c->point[0].error &&
-                       !(last->error <= c->expected.down_to) && c->point[1].error < c->point[0].error;
+                       !(last->error <= c->expected.down_to) &&
+                       c->point[1].error < c->point[0].error;
     return clear ? last - 2 : NULL;
 }
 
@@ -337,7 +338,8 @@ static void judge_beyond(struct br_case *c, const struct br_point *first)
                   "grids are larger");
 }
 
-/* Says which row would settle the verdict; a source whose numbers are all needed says more itself. */
+/* Says which row would settle the verdict; a source whose numbers are all needed says more itself.
+ */
 static void name_row(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
@@ -465,8 +467,8 @@ static void judge_constant(struct br_case *c)
     const enum br_verdict so_far = c->verdict;
     char before[sizeof c->reason];
     snprintf(before, sizeof before, "%s", c->reason);
-    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
-             high ? "above its upper limit" : "below its lower limit",
+    conclude(c, BR_FAIL, "the constant, %.4g%s%s, is %s, %.4g", c->constant, *c->unit ? " " : "",
+             c->unit, high ? "above its upper limit" : "below its lower limit",
              high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
         br_append(c->reason, sizeof c->reason, "; and %s", before);

@@ -166,8 +166,8 @@ static enum br_status fill_row(const struct plan *plan, const struct section *s,
     const struct br_study *first = study_in(plan, s, head, 0);
     const struct br_error *failure =
         first->failure.status ? &first->failure : &first->cell[at].failure;
-    row->given[axis] = axis == BR_AXIS_SPACE ? (double)v->n[i]
-                                             : br_time_step(s->check->scene, v->steps[i]);
+    row->given[axis] =
+        axis == BR_AXIS_SPACE ? (double)v->n[i] : br_time_step(s->check->scene, v->steps[i]);
     row->z[axis] = refinement(s->kind, (struct br_resolution){v->n[i], v->steps[i]});
     row->against[axis] = refinement(s->kind, against(s, i));
     for (size_t e = 0; e < v->expectations && !failure->status; e++) {

@@ -149,10 +149,9 @@ static enum br_status check_expectation(const struct br_scene *scene,
                                         const struct br_verify_expectation *expected,
                                         struct br_error *err)
 {
-    return br_models(scene, expected->part)
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "the scene has no %s part",
-                         br_part_names[expected->part]);
+    return br_models(scene, expected->part) ? BR_OK
+                                            : br_fail(err, BR_BAD_INPUT, "the scene has no %s part",
+                                                      br_part_names[expected->part]);
 }
 
 static const struct br_expectation *find(const struct br_verify_study *v,
@@ -180,11 +179,10 @@ static enum br_status check_total(const struct br_verify_study *v,
     char text[BR_EXPECTATION_TEXT];
     if (br_expectation_high(total) >= low && br_expectation_low(total) <= high)
         return BR_OK;
-    return br_fail(
-        err, BR_BAD_INPUT,
-        "%s contradicts what is expected of the parts: the total has the lower one "
-        "of their orders, %g to %g",
-        br_expectation_text(total, text), low, high);
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s contradicts what is expected of the parts: the total has the lower one "
+                   "of their orders, %g to %g",
+                   br_expectation_text(total, text), low, high);
 }
 
 static enum br_status check_study(const struct br_scene *scene, enum br_verify_kind kind,
