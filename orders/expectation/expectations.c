@@ -152,12 +152,12 @@ static enum br_status take_name(const char **at, char name[64], struct br_error 
     const char *end = quoted ? br_skip_word(quoted, "") : NULL;
     size_t length = quoted ? (size_t)(quoted - 1 - name_at) : 0;
     *name = '\0';
-    if (is_order(*at))
+    if (is_order(*at) || br_skip_word(*at, "<="))
         return BR_OK;
-    if (!end || !*end || !strchr(":=>", *end)) {
+    if (!end || !*end || !strchr(":=><", *end)) {
         name_at = end = *at;
         while (*end && *end != ':' && !(*end == '=' && is_order(end + 1)) &&
-               !(strchr(">\xe2", *end) && is_order(end)))
+               !br_skip_word(end, "<=") && !(strchr(">\xe2", *end) && is_order(end)))
             end++;
         if (!*end && strchr(*at, '='))
             end = strchr(*at, '=');
@@ -198,7 +198,7 @@ enum br_status br_expectations_read(const char *text, size_t line,
     char name[64] = "";
     for (bool more = true, comma = false; more;) {
         struct br_order_expectation *e = &all[(*count)++];
-        const bool same = comma && (is_order(at) || !strpbrk(at, ":=>"));
+        const bool same = comma && (is_order(at) || !strpbrk(at, ":=<>"));
         if ((!same && take_name(&at, name, err)) ||
             br_expectation_read(&at, "", &e->axis, &e->band, err))
             return err->status;
