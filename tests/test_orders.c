@@ -961,6 +961,7 @@ TEST(test_grammar)
     refuse_expectation("l2: x 2 +- .1", "found 'x 2 +- .1', expected an order above 0");
     refuse_expectation("l2: h -2 +- .1", "expected an order above 0");
     refuse_expectation("l2: h nan +- .1", "found 'nan +- .1', expected an order above 0");
+    refuse_expectation("l2 = 2; h1; x = 2", "found 'h1; x = 2', expected an error's name");
     refuse_expectation("l2 = two", "found 'two', expected an order above 0");
     refuse_expectation("l2: h 2 +- 0", "expected a tolerance above 0 and below the order");
     refuse_expectation("l2: h 2 +- 2", "expected a tolerance above 0 and below the order");
@@ -992,6 +993,7 @@ TEST(test_short_grammar)
         {"k \u2265 1.8", " k >= 1.8"},
         {"at least 1.8", " - >= 1.8"},
         {"L2=2", "L2 - 2 +- 0.2"},
+        {"L2 = 2 ; H1 = h 1", "L2 - 2 +- 0.2;H1 h 1 +- 0.1"},
         {"L2 >= 1.8, k 1", "L2 - >= 1.8;L2 k 1 +- 0.1"},
         {"L2=2, H1: h 1 +- .2; x >= 3", "L2 - 2 +- 0.2;H1 h 1 +- 0.2;x - >= 3"},
         {"l2: h 2 to 4 +- .2, constant 2 to 3", "l2 h 2 to 4 +- 0.2, 2 to 3"},

@@ -2,6 +2,7 @@
 /* Expected orders, as options, study files and scenes state them, and the verdicts on them. */
 #include "orders/orders.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 #include <strings.h>
@@ -46,11 +47,11 @@ static bool takes(const char **at, const char *word)
     return behind;
 }
 
-/* Whether a number above 0 is next. */
-static bool take_number(const char **at, double *value)
+/* Whether a number between these is next. */
+static bool take_number(const char **at, double low, double high, double *value)
 {
     const char *end = br_read_number(*at, value);
-    if (!end || !(*value > 0))
+    if (!end || !(*value > low && *value < high))
         return false;
     *at = br_skip_word(end, "");
     return true;
@@ -75,19 +76,19 @@ static enum br_status take_band(const char **at, struct br_expectation *e, struc
         return refuse(*at, "'>=' or a band: errors that do not fall have an order below any limit",
                       err);
     const bool least = takes(at, ">=") || takes(at, "\u2265") || takes(at, "at least");
-    if (!take_number(at, &e->order) || (e->exponential && !(e->order > 1)))
+    if (!take_number(at, e->exponential ? 1 : 0, INFINITY, &e->order))
         return refuse(
             *at, e->exponential ? "a factor above 1" : "an order above 0, perhaps behind h or k",
             err);
     if (least)
         return BR_OK;
-    if (takes(at, "to") && !(take_number(at, &e->highest) && e->highest > e->order))
+    if (takes(at, "to") && !take_number(at, e->order, INFINITY, &e->highest))
         return refuse(*at, "an order above the first", err);
     e->tolerance = e->order / 10;
     const bool given = takes(at, "+-") || takes(at, "\u00b1");
     if (!given && **at == '+')
         return refuse(*at, "'+-'", err);
-    if (given && !(take_number(at, &e->tolerance) && e->tolerance < e->order))
+    if (given && !take_number(at, 0, e->order, &e->tolerance))
         return refuse(*at,
                       "a tolerance above 0 and below the order, since the order 0 is that of "
                       "errors that do not fall",
@@ -105,9 +106,9 @@ static enum br_status take_constant(const char **at, const char *unit, struct br
     *at = next;
     if (e->tolerance == 0)
         return refuse(*at, "no constant of a least order: it belongs to one order", err);
-    if (!most && !(take_number(at, &e->floor) && takes(at, "to")))
+    if (!most && !(take_number(at, 0, INFINITY, &e->floor) && takes(at, "to")))
         return refuse(*at, "a range of the constant, 'constant 2e-4 to 3e-4'", err);
-    if (!take_number(at, &e->ceiling) || !(most || e->floor < e->ceiling))
+    if (!take_number(at, most ? 0 : e->floor, INFINITY, &e->ceiling))
         return refuse(*at, "a constant above 0, and above the first", err);
     if (!takes(at, unit))
         return br_fail(err, BR_BAD_INPUT,
@@ -118,6 +119,7 @@ static enum br_status take_constant(const char **at, const char *unit, struct br
 enum br_status br_expectation_read(const char **at, const char *unit, enum br_axis *axis,
                                    struct br_expectation *e, struct br_error *err)
 {
+    *at = br_skip_word(*at, "");
     *axis = BR_AXES;
     e->floor = e->ceiling = NAN;
     for (int a = 0; a < BR_AXES && *axis == BR_AXES; a++)
@@ -126,7 +128,7 @@ enum br_status br_expectation_read(const char **at, const char *unit, enum br_ax
     e->exponential = takes(at, "exponential");
     if (take_band(at, e, err))
         return err->status;
-    if (takes(at, "down to") && !take_number(at, &e->down_to))
+    if (takes(at, "down to") && !take_number(at, 0, INFINITY, &e->down_to))
         return refuse(*at, "an error above 0", err);
     return take_constant(at, unit, e, err);
 }
@@ -152,19 +154,20 @@ static enum br_status take_name(const char **at, char name[64], struct br_error 
     const char *end = quoted ? br_skip_word(quoted, "") : NULL;
     size_t length = quoted ? (size_t)(quoted - 1 - name_at) : 0;
     *name = '\0';
-    if (is_order(*at) || br_skip_word(*at, "<="))
+    const bool is_word = **at && strchr("hk", **at) && isdigit((unsigned char)(*at)[1]); /* h1 */
+    if ((is_order(*at) && !is_word) || br_skip_word(*at, "<="))
         return BR_OK;
     if (!end || !*end || !strchr(":=><", *end)) {
         name_at = end = *at;
-        while (*end && *end != ':' && !(*end == '=' && is_order(end + 1)) &&
+        while (*end && !strchr(":;", *end) && !(*end == '=' && is_order(end + 1)) &&
                !br_skip_word(end, "<=") && !(strchr(">\xe2", *end) && is_order(end)))
             end++;
-        if (!*end && strchr(*at, '='))
+        if ((!*end || *end == ';') && strchr(*at, '=') && strchr(*at, '=') < end)
             end = strchr(*at, '=');
         for (length = (size_t)(end - *at); length && strchr(" \t\n", (*at)[length - 1]);)
             length--;
     }
-    if (!*end || length == 0)
+    if (!*end || *end == ';' || length == 0)
         return refuse(*at, "an error's name and ':'", err);
     if (length > 63)
         return refuse(*at, "a name of at most 63 bytes", err);
