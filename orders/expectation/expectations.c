@@ -291,7 +291,7 @@ static struct br_case *add_case(struct br_check *check)
 }
 
 /* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
-enum br_status br_orders_judge(const struct br_orders *o, const struct br_quantity_orders *of,
+enum br_status br_orders_decide(const struct br_orders *o, const struct br_quantity_orders *of,
                                const struct br_order_expectation *e, struct br_check *check,
                                struct br_error *err)
 {
@@ -315,7 +315,7 @@ enum br_status br_orders_judge(const struct br_orders *o, const struct br_quanti
     if (!joint && answer->open)
         br_case_take_order(c, answer->order, NAN);
     c->open = answer->open;
-    br_case_judge(c);
+    br_case_decide(c);
     if (isnan(c->order.value)) /* of too few errors for a verdict */
         c->order = answer->order;
     return BR_OK;
@@ -334,7 +334,7 @@ enum br_status br_orders_check(const struct br_orders *o, const struct br_order_
             return br_fail(err, BR_BAD_INPUT,
                            "%s: an order of '%s' is expected, and there is no such column",
                            check->path, found.quantity);
-        if (br_orders_judge(o, &o->of[quantity], &found, check, err))
+        if (br_orders_decide(o, &o->of[quantity], &found, check, err))
             return err->status;
     }
     return BR_OK;
