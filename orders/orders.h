@@ -287,8 +287,8 @@ enum br_status br_expectation_find(const struct br_numbers *numbers,
  * grid of errors by the answer, else on the line at the finest size of the other axis. Fails with
  * BR_BAD_INPUT where there is no line, or with BR_NO_MEMORY. */
 enum br_status br_orders_decide(const struct br_orders *orders, const struct br_quantity_orders *of,
-                               const struct br_order_expectation *expected, struct br_check *check,
-                               struct br_error *err);
+                                const struct br_order_expectation *expected, struct br_check *check,
+                                struct br_error *err);
 
 /* Adds that on each expectation. Fails as br_expectation_find and br_orders_decide do, and with
  * BR_BAD_INPUT where there is no such quantity. */

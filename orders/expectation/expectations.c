@@ -218,19 +218,6 @@ enum br_status br_expectations_read(const char *text, size_t line,
     return *at ? refuse(at, "',' or ';' or the end", err) : BR_OK;
 }
 
-/* The axis that an expectation means. */
-static enum br_status find_axis(const struct br_numbers *n, struct br_order_expectation *e,
-                                struct br_error *err)
-{
-    if (e->axis == BR_AXES && n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME])
-        return br_fail(err, BR_BAD_INPUT,
-                       "an order is expected, and h and k are refined: expected one of the two "
-                       "before it, as in 'h 2 +- 0.1'");
-    if (e->axis == BR_AXES)
-        e->axis = n->column[BR_AXIS_TIME] ? BR_AXIS_TIME : BR_AXIS_SPACE;
-    return BR_OK;
-}
-
 enum br_status br_expectation_find(const struct br_numbers *n, struct br_order_expectation *e,
                                    size_t *quantity, struct br_error *err)
 {
@@ -248,7 +235,13 @@ enum br_status br_expectation_find(const struct br_numbers *n, struct br_order_e
                        "an order%s%s is expected, and %zu columns may be meant: expected the name "
                        "of one before it, as in '%.60s: h 2 +- 0.1'",
                        *e->quantity ? " of " : "", e->quantity, count, n->quantity[similar].name);
-    return find_axis(n, e, err);
+    const bool in_h = n->column[BR_AXIS_SPACE], in_k = n->column[BR_AXIS_TIME];
+    if (e->axis == BR_AXES && in_h && in_k)
+        return br_fail(err, BR_BAD_INPUT,
+                       "an order is expected, and h and k are refined: expected one of the two "
+                       "before it, as in 'h 2 +- 0.1'");
+    e->axis = e->axis < BR_AXES ? e->axis : in_k ? BR_AXIS_TIME : BR_AXIS_SPACE;
+    return BR_OK;
 }
 
 /* ---- verdicts ---- */
@@ -292,8 +285,8 @@ static struct br_case *add_case(struct br_check *check)
 
 /* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
 enum br_status br_orders_decide(const struct br_orders *o, const struct br_quantity_orders *of,
-                               const struct br_order_expectation *e, struct br_check *check,
-                               struct br_error *err)
+                                const struct br_order_expectation *e, struct br_check *check,
+                                struct br_error *err)
 {
     const struct br_orders_line *line = br_orders_finest(of, e->axis);
     const struct br_orders_answer *answer = &of->answer[e->axis];

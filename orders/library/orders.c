@@ -342,8 +342,8 @@ static enum br_status check_orders(struct beamrate_check *made,
     enum br_status status = copy_expectations(from, count, &e, err);
     made->check.path = name_of_numbers;
     for (size_t i = 0; i < count && !status; i++)
-        status = br_orders_decide(&orders->orders, &orders->orders.of[quantity], &e[i], &made->check,
-                                 err);
+        status = br_orders_decide(&orders->orders, &orders->orders.of[quantity], &e[i],
+                                  &made->check, err);
     free(e);
     return status ? status : finish_check(made, &orders->numbers, err);
 }

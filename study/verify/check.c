@@ -145,16 +145,6 @@ static double refinement(enum br_verify_kind kind, struct br_resolution at)
     return parts ? 1 / (double)parts : 0;
 }
 
-/* The error of a cell in one norm and component, or why there is none. */
-static void take_error(const struct br_study *study, const struct br_cell *cell, enum br_part part,
-                       struct br_numbers_row *row, size_t quantity)
-{
-    row->number[quantity] = cell->error[part];
-    row->out[quantity] = cell->flag[part];
-    if (!row->out[quantity] && study->reference_report.unstable)
-        row->out[quantity] = BR_FLAG_UNSTABLE; /* the march that it is compared with */
-}
-
 /* Row i of a section's numbers. */
 static enum br_status fill_row(const struct plan *plan, const struct section *s, size_t i,
                                struct br_numbers_row *row, struct br_error *err)
@@ -171,9 +161,12 @@ static enum br_status fill_row(const struct plan *plan, const struct section *s,
     row->z[axis] = refinement(s->kind, (struct br_resolution){v->n[i], v->steps[i]});
     row->against[axis] = refinement(s->kind, against(s, i));
     for (size_t e = 0; e < v->expectations && !failure->status; e++) {
-        const struct br_study *study =
-            study_in(plan, s, head, norm_index(s, v->expectation[e].norm));
-        take_error(study, &study->cell[at], v->expectation[e].part, row, e);
+        const struct br_verify_expectation *x = &v->expectation[e];
+        const struct br_study *study = study_in(plan, s, head, norm_index(s, x->norm));
+        row->number[e] = study->cell[at].error[x->part];
+        row->out[e] = study->cell[at].flag[x->part];
+        if (!row->out[e] && study->reference_report.unstable)
+            row->out[e] = BR_FLAG_UNSTABLE; /* the march that it is compared with */
     }
     row->failure = failure->status ? strdup(failure->message) : NULL;
     return failure->status && !row->failure ? br_no_memory(err, "the verdict") : BR_OK;
@@ -240,7 +233,7 @@ static void finish_case(const struct section *s, const struct br_verify_expectat
 
 /* The verdicts of a section, as those of a table. */
 static enum br_status decide_section(const struct plan *plan, const struct section *s,
-                                    struct br_error *err)
+                                     struct br_error *err)
 {
     const struct br_verify_study *v = study_of(s);
     struct br_check *check = s->check->check;

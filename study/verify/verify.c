@@ -145,15 +145,6 @@ static enum br_status check_cells(const struct br_scene *scene, enum br_verify_k
     return BR_OK;
 }
 
-static enum br_status check_expectation(const struct br_scene *scene,
-                                        const struct br_verify_expectation *expected,
-                                        struct br_error *err)
-{
-    return br_models(scene, expected->part) ? BR_OK
-                                            : br_fail(err, BR_BAD_INPUT, "the scene has no %s part",
-                                                      br_part_names[expected->part]);
-}
-
 static const struct br_expectation *find(const struct br_verify_study *v,
                                          const struct br_norm *norm, enum br_part part)
 {
@@ -197,7 +188,8 @@ static enum br_status check_study(const struct br_scene *scene, enum br_verify_k
     for (size_t i = 0; i < v->expectations && !status; i++) {
         const struct br_verify_expectation *e = &v->expectation[i];
         *line = e->band.line;
-        status = check_expectation(scene, e, err);
+        if (!br_models(scene, e->part))
+            status = br_fail(err, BR_BAD_INPUT, "the scene has no %s part", br_part_names[e->part]);
         if (!status && find(v, e->norm, e->part) != &e->band)
             status = br_fail(err, BR_BAD_INPUT, "%s %s is given twice", e->norm->name,
                              br_part_names[e->part]);
