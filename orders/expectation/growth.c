@@ -72,7 +72,7 @@ static bool grows(const struct br_case *c)
     static const double falls = 0.2, deep = 1e-6;
     const struct br_point *last = c->point + c->points - 1;
     return br_point_rate(&last[-1], last) < 0 && br_point_rate(&last[-2], &last[-1]) < falls &&
-           last->error > deep * c->point[0].error && !(last->error <= c->down_to);
+           last->error > deep * c->point[0].error && !(last->error <= c->expected.down_to);
 }
 
 const struct br_point *br_turning_point(const struct br_case *c)
