@@ -60,6 +60,12 @@ static const struct br_option rows[] = {
     {BR_OPT_WHERE, "where", 0, "COLUMN=WORD", "reads the rows of one study: method=P1", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "Without it, each study is answered, for each word or degree of a column."},
+    {BR_OPT_FINEST, "finest", 0, "COUNT", "orders of so many of the finest sizes alone", NULL,
+     BR_TAKES_NUMBER, WHOLE(3, 1000), .commands = BR_FOR_ORDERS,
+     .more = "Along each axis. The answer, verdicts and pictures say so; the other rows are shown "
+             "as left out by hand."},
+    {BR_OPT_WITHOUT, "without", 0, "LIST", "sizes that are left out: 8, or 8,16, or n=8", NULL,
+     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "Before --finest counts."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
      "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
      .commands = BR_FOR_ORDERS,

@@ -115,6 +115,7 @@ void br_numbers_clear(struct br_numbers *numbers)
     for (size_t i = 0; i < numbers->quantities; i++) {
         free(numbers->quantity[i].name);
         free(numbers->quantity[i].unit);
+        free(numbers->quantity[i].window);
         for (int axis = 0; axis < BR_AXES; axis++)
             free(numbers->quantity[i].differences[axis].point);
     }
@@ -299,7 +300,7 @@ const char *const br_axis_letters[] = {"h", "k"};
 const char *br_flag_name(enum br_flag flag)
 {
     static const char *const names[BR_CELL_FLAGS] = {
-        "",         "reference",  "round-off",      "failed",
-        "unstable", "stagnation", "not asymptotic", "outlier"};
+        "",           "reference",      "round-off", "failed", "unstable",
+        "stagnation", "not asymptotic", "outlier",   "by hand"};
     return names[flag];
 }

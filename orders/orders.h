@@ -30,6 +30,7 @@ struct br_quantity {
     bool is_value; /* true: its limit is not known; false: it is an error, whose limit is 0 */
     int digits, decimals; /* the most that one of its numbers has, if zeros at the end are none */
     bool fixed;           /* printed to these decimals; else to these digits */
+    char *window;         /* rows by hand, "the 3 finest of 6"; NULL: all rows have a part; owned */
     /* What a source knows besides; zeros: nothing. */
     double formal[BR_AXES]; /* the order of theory: errors that do not fall, or fall slowly and
                                unevenly, show none then */

@@ -49,6 +49,8 @@ struct br_orders_request {
     double dimension;      /* of the mesh, for unknowns (dofs) and cells: br_orders_dimension */
     bool assumed_dimension; /* nobody stated it */
     double formal;          /* the order of theory for values; 0: nobody stated it */
+    double finest;          /* so many of the finest sizes along each axis have a part; 0: all */
+    char *without;          /* sizes that have none, "8, n=16"; NULL: none */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
     char *table;           /* text of a table; NULL: none */
@@ -83,6 +85,12 @@ void br_orders_request_clear(struct br_orders_request *request);
 enum br_status br_orders_read(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
+/* Gives BR_FLAG_BY_HAND to the numbers outside of the request's window, which then have no part in
+ * orders, limits and verdicts (window.c, for br_orders_read). Fails with BR_NO_MEMORY, or with
+ * BR_BAD_INPUT for a size that is not there, or where too few sizes are left. */
+enum br_status br_orders_window(const struct br_orders_request *request, struct br_numbers *numbers,
+                                struct br_error *err);
+
 /* The file that the numbers come from, for messages. */
 const char *br_orders_path(const struct br_orders_request *request);
 
@@ -100,9 +108,10 @@ double br_orders_dimension(const struct br_orders_request *request,
 
 /* ---- tables ---- */
 
-/* The source: a table (orders/reading/roles.h says how it is read). Without errors and values in the
- * request, every column that falls as errors do is an error. Where a column tells several studies
- * apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is empty,
+/* The source: a table (orders/reading/roles.h says how it is read). Without errors and values in
+ * the request, every column that falls as errors do is an error. Where a column tells several
+ * studies apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is
+ * empty,
  * "-", "nan" or "***" is a run without a number. numbers->taken (out) says what was taken for what.
  */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,

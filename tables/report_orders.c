@@ -176,7 +176,7 @@ static void say_cells_left_out(struct br_document *d, const struct br_orders *o,
                 of->joint.points + of->joint.left_out);
     for (size_t i = 0; i < o->numbers->rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[i];
-        if (of->flag[i] == BR_FLAG_NONE)
+        if (of->flag[i] == BR_FLAG_NONE || of->flag[i] == BR_FLAG_BY_HAND)
             continue;
         name_cell(d, o, row, row, found);
         if (found++ < MOST_CELLS)
@@ -315,7 +315,9 @@ static void put_number(struct br_document *d, const struct br_orders *o,
     const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
     const double found = r->number[of->quantity];
-    const char *left_out = r->failure || isnan(found) ? br_flag_name(BR_FLAG_FAILED) : "";
+    const char *left_out = r->failure || isnan(found)                ? br_flag_name(BR_FLAG_FAILED)
+                           : r->out[of->quantity] == BR_FLAG_BY_HAND ? br_flag_name(BR_FLAG_BY_HAND)
+                                                                     : "";
     char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
     if (number)
         snprintf(prefix, sizeof prefix, "%zu ", number);
@@ -533,6 +535,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             say_limit(d, o, of, &first);
         say_orders(d, o, of, &first);
         say_next(d, o, of, &first);
+        if (quantity_of(o, of)->window)
+            br_put_more(d, "%srows by hand: %s", separator(&first), quantity_of(o, of)->window);
         br_put_more(d, ".");
         if (br_joint_describes(&of->joint) && of->joint.left_out)
             say_cells_left_out(d, o, of);

@@ -74,6 +74,7 @@ struct br_case {
     bool exponential;          /* `expected` is not an order, but what the factor below is to be */
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
+    const char *window;        /* rows by hand, "the 3 finest of 6"; NULL: all; borrowed */
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */
     double constant;  /* the largest of the finest five used points'; NaN: none */
     const char *open; /* why no order can be judged, and what would show one; NULL; borrowed */

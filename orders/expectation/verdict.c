@@ -45,14 +45,22 @@ static const struct br_point *first_failed(const struct br_case *c)
     return NULL;
 }
 
+/* The note begins with the window. */
+static void begin_note(struct br_case *c)
+{
+    snprintf(c->note, sizeof c->note, "%s%s", c->window ? "rows by hand: " : "",
+             c->window ? c->window : "");
+}
+
 static void list_left_out(struct br_case *c)
 {
+    const char *between = c->note[0] ? "; left out: " : "left out: ";
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
         if (!p->flag)
             continue;
-        br_append(c->note, sizeof c->note, "%s%s (%s", c->note[0] ? ", " : "left out: ", p->label,
-                  br_flag_name(p->flag));
+        br_append(c->note, sizeof c->note, "%s%s (%s", between, p->label, br_flag_name(p->flag));
+        between = ", ";
         if (isfinite(p->error))
             br_append(c->note, sizeof c->note, ", error %.1e", p->error);
         br_append(c->note, sizeof c->note, ")");
@@ -361,7 +369,9 @@ static void name_sizes(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
-    if (!(c->duration > 0) && !c->open && !trend_of(c).stays)
+    if (c->window && !trend_of(c).stays)
+        br_append(c->reason, sizeof c->reason, "; leave out fewer rows");
+    else if (!(c->duration > 0) && !c->open && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
                   lost                  ? c->point[0].label
                   : last->z_against > 0 ? "all others" /* the finest value has no difference */
@@ -494,7 +504,8 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
 {
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->margin = NAN;
-    c->reason[0] = c->note[0] = '\0';
+    c->reason[0] = '\0';
+    begin_note(c);
     c->low99 = c->high99 = NAN;
     c->factor = (struct br_estimate){NAN, NAN, NAN};
     c->law = NULL;
@@ -541,7 +552,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
         if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
             c->point[i].flag = BR_FLAG_NONE;
     }
-    c->note[0] = '\0';
+    begin_note(c);
     choose_points(c);
 }
 
@@ -575,6 +586,8 @@ void br_case_judge(struct br_case *c)
     }
     if (c->verdict == BR_INCONCLUSIVE)
         name_sizes(c);
+    if (c->verdict != BR_PASS && c->window)
+        br_append(c->reason, sizeof c->reason, " (rows by hand: %s)", c->window);
 }
 
 /* ---- all of a check ---- */

@@ -18,8 +18,8 @@
  * effect concerns the whole process: while a function of the library runs, the error handler of GSL
  * is off, and the last call that ends restores it. Results do not depend on the locale.
  *
- * ABI: libbeamrate.so.1. Functions may be added; where one goes, or a struct or number below changes,
- * the number in that name does, too. */
+ * ABI: libbeamrate.so.1. Functions may be added; where one goes, or a struct or number below
+ * changes, the number in that name does, too. */
 #ifndef BEAMRATE_H
 #define BEAMRATE_H
 
@@ -118,6 +118,8 @@ struct beamrate_table {
     double formal;       /* theoretical order of values; 0: 2 */
     const char *columns; /* what columns are, as of --column: "dx=h, 3=l2"; NULL: not stated */
     const char *where;   /* the rows of one case, as of --where: "method=P1"; NULL: each case */
+    size_t finest;       /* so many of the finest sizes have a part, as of --finest; 0: all */
+    const char *without; /* sizes that have none, as of --without: "8,16"; NULL: none */
 };
 
 /* Reads the table and finds the orders of each of its columns of numbers. *orders (out): owned by

@@ -69,7 +69,8 @@ _Case = _struct("s:study s:measure d:expected d:tolerance e:order d:constant d:m
 _Fit = _struct("i:describes e:p e:c_h e:q e:c_k e:r d:misfit z:points", e=_Estimate)
 _Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
 _Order = _struct("e:order d:constant z:points z:used e:limit", e=_Estimate)
-_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal s:columns s:where")
+_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal s:columns s:where "
+                 "z:finest s:without")
 _Answer = _struct("s:quantity i:values i:refined e:order s:open", e=_Estimate)
 _OrderPoint = _struct("d:size d:error d:rate e:fit s:left_out", e=_Estimate)
 _Expectation = _struct("i:axis d:order d:tolerance d:down_to")
@@ -443,7 +444,8 @@ def _names(name, value):
 _SIZES = ("h", "n", "level", "dofs", "cells", "points", "interior", "degree", "k", "dt", "steps")
 
 
-def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=None, where=None, **sizes):
+def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=None, where=None, finest=0,
+           without=None, **sizes):
     """The orders of convergence of a table: Orders, whose repr is the answer.
 
     data: a pandas DataFrame, a mapping of names to lists of numbers, the path of a file, or one list
@@ -453,8 +455,9 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=Non
     values, errors: names of columns, "cd" or ["cd", "cl"]: values have no known limit; default: all
     numbers are errors. Of one list, values=True makes it values. formal: the order of theory for
     values (2). columns={"time": "aside"}: what other columns are, as --column has it.
-    where={"method": "P1"}: one case of several; else each is answered. NaN is a missing number. The
-    answer says what was taken for what, and what was left aside.
+    where={"method": "P1"}: one case of several; else each is answered. finest=3: the finest three sizes
+    alone; without=[8]: all sizes but these. NaN is a missing number. The answer says what was taken for
+    what, and what was left aside.
     """
     if wrong := sorted(set(sizes) - set(_SIZES)):
         _refuse(TypeError, "sizes", wrong, f"some of {', '.join(_SIZES)}")
@@ -472,7 +475,17 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=Non
         _refuse(BadInput, "dimension, formal", watch, "numbers above 0")
     return Orders(None, _table=_Table(name, text, _names("errors", errors), _names("values", values),
                                       dimension, formal, _pairs("columns", roles),
-                                      _pairs("where", dict(where or {}))))
+                                      _pairs("where", dict(where or {})), _finest(finest),
+                                      _names("without", [without] if isinstance(without, (int, float, np.number))
+                                             else without)))
+
+
+def _finest(value):
+    try:
+        value = operator.index(value or 0)
+    except TypeError:
+        _refuse(TypeError, "finest", value, "a whole number (an integer)")
+    return value if value == 0 or 3 <= value <= 1000 else _refuse(BadInput, "finest", value, "3 to 1000 sizes")
 
 
 def _pairs(name, pairs):

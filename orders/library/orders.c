@@ -126,6 +126,11 @@ static enum br_status read_orders(struct beamrate_orders *o, const struct beamra
     q.values = (char *)table->values;
     q.columns = (char *)table->columns;
     q.where = (char *)table->where;
+    q.finest = (double)table->finest;
+    q.without = (char *)table->without;
+    if (table->finest > 0 && table->finest < BR_ORDERS_LEAST)
+        return br_fail(err, BR_BAD_INPUT, "table: finest: found %zu, expected at least %d, or 0",
+                       table->finest, BR_ORDERS_LEAST);
     q.dimension = table->dimension > 0 ? table->dimension : q.dimension;
     q.assumed_dimension = !(table->dimension > 0);
     q.formal = table->formal > 0 ? table->formal : q.formal;
