@@ -232,6 +232,26 @@ def check_left_out():
     close(nothing.constant, 0.25, 1e-6)
 
 
+def check_window():
+    error = [9, 5, 1, 1 / 4, 1 / 16]
+    alone = br.orders(error[2:], n=N[2:])
+    for window in ({"finest": 3}, {"without": [10, 20]}, {"without": ["n=10", 20.0]}, {"finest": 3, "without": 10}):
+        found = br.orders(error, n=N, **window)
+        assert found.order == alone.order and found.order.low == alone.order.low, window
+        assert [row["left_out"] for row in found["error"].rows] == ["by hand"] * 2 + [""] * 3, window
+        assert len(found["error"].points) == 3
+    assert "rows by hand: the 3 finest of 5." in repr(br.orders(error, n=N, finest=3))
+    axes = Axes()
+    br.orders(error, n=N, finest=3).plot(axes)
+    assert ("none", [0.1, 0.05], [9, 5]) in axes.drawn, axes.drawn
+    axes = Axes()
+    br.orders(error, n=N, values=True, without=20).plot(axes)
+    assert ("none", [0.05], [5]) in axes.drawn, axes.drawn
+    refused("finest: found 2", lambda: br.orders(error, n=N, finest=2))
+    refused("finest: found 3.5", lambda: br.orders(error, n=N, finest=3.5))
+    refused("--without: found 8, which is no size there", lambda: br.orders(error, n=N, without=8))
+
+
 def check_plot(make):
     error = 3.0 / N ** 2
     error[0] = 5
@@ -303,5 +323,6 @@ else:
     check_numbers()
     check_notebook()
     check_left_out()
+    check_window()
     check_plot(Axes)
     check_refusals()

@@ -33,7 +33,7 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
         .n = q->n,
         .n_count = q->n_count,
     };
-    if (br_asked_steps_make(&q->steps, scene, &w->steps, &study->k_count, err))
+    if (br_steps_read(q->k, scene, &w->steps, &study->k_count, err))
         return err->status;
     if (q->n_count * study->k_count > BR_MOST_ROWS)
         return br_fail(err, BR_BAD_INPUT,

@@ -42,7 +42,7 @@ static const double usual_seconds = 10;
 
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
-    static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
+    static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_TOLERANCES,
                                                BR_OPTIONS}; /* given lists are tried as they are */
     const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
@@ -94,7 +94,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
     size_t steps = 0;
     if (set_request(r, item, err))
         return err->status;
-    if (br_asked_steps_make(&r->study.steps, scene, &item->steps, &steps, err))
+    if (br_steps_read(r->study.k, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
     item->trade.goal = r->goal;
     if (r->study.methods.count)
@@ -125,7 +125,7 @@ static enum br_status check_used(const struct run *r, bool split, struct br_erro
         fixed |= !methods->list[i].method.scheme->adaptive;
         adaptive |= methods->list[i].method.scheme->adaptive;
     }
-    static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPT_STEPS, BR_OPTIONS};
+    static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPTIONS};
     const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerance"
                           : fixed                                            ? NULL
                                   : br_first_given(o, of_fixed);
@@ -341,7 +341,7 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
         (r->study.methods.count == 0 && /* default: the first scheme */
          br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
         check_used(r, true, err) || read_scenes(r, err) ||
-        br_asked_steps_make(&r->study.steps, &r->item->opened.scene, &r->item->steps, &steps, err))
+        br_steps_read(r->study.k, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
     r->split =
         br_allocate(methods->count * meshes * (steps + 1) * (o->count[BR_OPT_TOLERANCES] + 1),

@@ -374,12 +374,21 @@ class Orders(_Handle):
             one.legend()
         return axes[0] if len(axes) == 1 else axes
 
+    @staticmethod
+    def _by_hand(q, letter, number):
+        """Sizes and numbers of the rows that finest= and without= leave out, at the finest other size."""
+        other = "size_" + ("k" if letter == "h" else "h")
+        finest = min((row[other] for row in q.rows if row.get(other)), default=None)
+        return [(row["size_" + letter], row[number]) for row in q.rows if row["left_out"] == "by hand" and
+                (len(q._axes) == 1 or row[other] == finest)]
+
     def _plot_errors(self, axes, group):
         for i, q in enumerate(group):
             size = [p.size for p in q.points]
             for hollow in (False, True):
-                drawn = [p for p in q.points if bool(p.left_out) == hollow]
-                axes.plot([p.size for p in drawn], [p.error for p in drawn], "os^Dv"[i % 5], color=f"C{i}",
+                drawn = [(p.size, p.error) for p in q.points if bool(p.left_out) == hollow]
+                drawn += self._by_hand(q, "hk"[q._axes[0]], "error") if hollow else []
+                axes.plot([p[0] for p in drawn], [p[1] for p in drawn], "os^Dv"[i % 5], color=f"C{i}",
                           fillstyle="none" if hollow else "full", label=None if hollow else repr(q))
             axes.plot(size, [p.fit.value for p in q.points], color=f"C{i}")
             axes.fill_between(size, [p.fit.low for p in q.points], [p.fit.high for p in q.points],
@@ -391,13 +400,15 @@ class Orders(_Handle):
 
     def _plot_value(self, axes, group):
         letter = "hk"[group[0]._axes[0]]
-        rows = [row for row in group[0].rows if row["value"] is not None]
+        rows = [row for row in group[0].rows if row["value"] is not None and row["left_out"] != "by hand"]
         if len(group[0]._axes) == 2:  # the line at the finest time step
             rows = [row for row in rows if row["size_k"] == min(r["size_k"] for r in rows)]
         size, value = [row["size_" + letter] for row in rows], [row["value"] for row in rows]
         row = [r for r in self.report["tables"]["limits"] if r["quantity"] == group[0].name and r["in"] == letter][-1]
         title, end = [], row["phi_ext"]
         axes.plot(size, value, "o", color="C0", label=group[0].name)
+        if by_hand := self._by_hand(group[0], letter, "value"):
+            axes.plot(*zip(*by_hand), "o", color="C0", fillstyle="none")
         if row["gci_fine"] is not None:
             title.append(f"p = {row['p']:.2f}, GCI {100 * row['gci_fine']:.2g} %")
             axes.errorbar(size[-1:], value[-1:], yerr=abs(row["gci_fine"] * value[-1]), color="0.2", capsize=5,

@@ -469,7 +469,7 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
     const struct br_scene scene = {.axial.modelled = axial, /* else `run` leaves it out */
                                    .contact.modelled = c->contact,
                                    .friction.law = c->law};
-    snprintf(text, BR_EXTREME_COMMAND, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n,
+    snprintf(text, BR_EXTREME_COMMAND, "beamrate run %s --check --n %zu --k T/%zu%s", name, c->n,
              c->steps, br_method_options(&scene, &c->method, options));
     if (c->wanted)
         br_append(text, BR_EXTREME_COMMAND, " --fields axial,bending");
