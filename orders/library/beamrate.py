@@ -257,6 +257,18 @@ class Quantity:
         return f"{self.name}: " + (", ".join(orders) or "no order")
 
 
+def said(quantity, case):
+    """"l2: order 1.00 [0.99, 1.01], expected 2 +- 0.1"."""
+    o, letter = case.order, {"space": " in h", "time": " in k"}[case.study] if len(quantity._axes) > 1 else ""
+    half = (o.high - o.low) / 2
+    digits = 4 if half < 5e-4 else 3 if half < 5e-3 else 2
+    low, high = round(o.low, digits), round(o.high, digits)
+    widen = 0 if low < high else 10 ** -digits  # no interval has the width zero
+    found = "no order" if math.isnan(half) else \
+        f"order{letter} {o:.{digits}f} [{low - widen:.{digits}f}, {high + widen:.{digits}f}]"
+    return f"{quantity.name}: {found}, expected {case.expected:g} +- {case.tolerance:g}"
+
+
 class Orders(_Handle):
     """Orders of numbers of any program: errors, or values whose limit is not known. See orders().
 
@@ -349,7 +361,7 @@ class Orders(_Handle):
         failures = []
         for q in self.quantities if quantity is None else [self[quantity]]:
             check = self.check((q._axis(axis), order, tolerance, down_to), quantity=q.name)
-            failures += [f"{q.name}: {case.verdict}: {case.reason}" for case in check.cases
+            failures += [f"{said(q, case)}: {case.verdict}: {case.reason}" for case in check.cases
                          if case.verdict != "PASS"]
         if failures:
             raise AssertionError("\n".join(failures))
