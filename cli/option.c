@@ -232,11 +232,19 @@ static enum br_status read_value(struct br_options *o, const struct br_option *r
         check_times(row, text, &inner);
     else if (row->kind == BR_TAKES_WORD || row->kind == BR_TAKES_WORD_LIST)
         read_words(o, row, text, &inner);
-    else if (row->kind == BR_TAKES_NUMBER && (*number = br_allocate(1, sizeof **number))) {
-        *count = 1;
-        br_read_in_range(text, &row->range, *number, &inner);
-    } else if (row->kind == BR_TAKES_NUMBER)
-        br_no_memory(&inner, "the options");
+    else if (row->kind == BR_TAKES_NUMBER || row->kind == BR_TAKES_SECONDS) {
+        double seconds;
+        char plain[40];
+        const char *end = row->kind == BR_TAKES_SECONDS ? br_read_time(text, NAN, &seconds) : NULL;
+        const bool is_time = end && !*end && isfinite(seconds);
+        *number = br_allocate(1, sizeof **number);
+        *count = *number ? 1 : 0;
+        if (!*number)
+            br_no_memory(&inner, "the options");
+        else
+            br_read_in_range(is_time ? br_shortest(seconds, plain, sizeof plain) : text,
+                             &row->range, *number, &inner);
+    }
     return inner.status ? br_fail(err, inner.status, "%s: %s", name, inner.message) : BR_OK;
 }
 

@@ -81,7 +81,7 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
-     "600", BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_ORDERS},
+     "600", BR_TAKES_SECONDS, BETWEEN(0, 1e10), .commands = BR_FOR_ORDERS},
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,

@@ -108,10 +108,10 @@ static const struct br_option rows[] = {
              "--tolerance and --methods all meshes, steps and time schemes are tried."},
     {BR_OPT_SECONDS, "seconds", 0, "S",
      "goal: the least error with so many seconds of a march, set-up included", NULL,
-     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
+     BR_TAKES_SECONDS, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
      .more = "One of --error and --seconds, for one scene."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
-     "10", BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE,
+     "10", BR_TAKES_SECONDS, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE,
      .more = "A run or march that will surely take longer is stopped early, and the report says "
              "so."},
 
