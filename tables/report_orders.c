@@ -263,12 +263,102 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
         br_put_more(d, ", GCI %.2g %% of the finest value, asymptotic %.3f", 100 * g->fine.index,
                     g->asymptotic);
     }
-    br_put_more(d, ": %s", br_sequence_text(limit->sequence));
+    if (limit->sequence != BR_SEQUENCE_UNKNOWN)
+        br_put_more(d, ": %s", br_sequence_text(limit->sequence));
     const enum br_axis axis = of->line[0].axis;
     /* Of three values, whose p is all that is known. */
     if (of->lines == 1 && isnan(of->answer[axis].order.value) && !o->numbers->assumed &&
         limit->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->value.low))
         say_meaning(d, o, of, axis, g->order);
+}
+
+/* ---- what may help where there is no order ---- */
+
+/* The errors of a line that are numbers, from coarse to fine; returns how many. */
+static size_t numbers_of(const struct br_orders_line *line, const struct br_point **point)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < line->observed.points; i++)
+        if (line->observed.point[i].error > 0 && isfinite(line->observed.point[i].error))
+            point[count++] = &line->observed.point[i];
+    return count;
+}
+
+/* Errors that fall and then grow, or rise and fall. */
+static void say_uneven(struct br_document *d, const struct br_orders_line *line)
+{
+    static const char *const meant[BR_AXES] = {
+        "an explicit scheme whose time step stays does that (refine both), and so does round-off",
+        "a scheme that is not stable for small steps does that, and so does round-off"};
+    const struct br_point *p[BR_MOST_SIZES];
+    const size_t count = numbers_of(line, p);
+    size_t least = 0, rises = 0;
+    for (size_t i = 1; i < count; i++) {
+        least = p[i]->error < p[least]->error ? i : least;
+        rises += p[i]->error > p[i - 1]->error;
+    }
+    if (count < BR_ORDERS_LEAST)
+        br_put_more(d, " An order needs three numbers.");
+    else if (rises && rises == count - 1 - least && p[count - 1]->error > 2 * p[least]->error)
+        br_put_more(d, " From %s on the errors grow, to %.1e: %s.", p[least]->label,
+                    p[count - 1]->error, meant[line->axis]);
+    else if (rises)
+        br_put_more(d, " The errors rise and fall: converge each run further, or measure them over "
+                       "the whole domain and time.");
+}
+
+/* Coarse errors that fall faster than any order are those of steps that are too large. */
+static void say_unstable(struct br_document *d, const struct br_orders_line *line)
+{
+    static const double most = 10; /* an order above it is none */
+    const struct br_point *p[BR_MOST_SIZES], *last = NULL;
+    const size_t count = numbers_of(line, p);
+    for (size_t i = 1; i < count && p[i - 1]->flag == BR_FLAG_COARSE; i++)
+        last = br_point_rate(p[i - 1], p[i]) > most ? p[i] : last;
+    if (last && line->axis == BR_AXIS_TIME)
+        br_put_more(d, " The errors above %s are those of steps beyond a limit of stability.",
+                    last->label);
+}
+
+/* Values that go up and down, or whose differences grow. */
+static void say_restless(struct br_document *d, const struct br_orders *o,
+                         const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const enum br_sequence sequence = line->limits.limit.sequence;
+    double v[BR_MOST_SIZES + 1];
+    size_t count = 0, turns = 0;
+    for (size_t i = 0; i < line->observed.points + 1; i++) {
+        v[count] = o->numbers->row[line->row[i]].number[of->quantity];
+        count += isfinite(v[count]) ? 1 : 0;
+    }
+    for (size_t i = 2; i < count; i++)
+        turns += (v[i] - v[i - 1]) * (v[i - 1] - v[i - 2]) < 0;
+    const double *finest = &v[count - 3];
+    if (sequence == BR_MONOTONE_DIVERGENCE)
+        br_put_more(d, " The differences grow: the sizes are too coarse, or there is no limit, as "
+                       "at a singularity.");
+    else if (turns && (sequence == BR_SEQUENCE_UNKNOWN || sequence == BR_SEQUENCE_ANOMALOUS ||
+                       sequence == BR_OSCILLATORY_DIVERGENCE))
+        br_put_more(d,
+                    " The values go up and down, the finest three between %.6g and %.6g: converge "
+                    "each run further, or average over time.",
+                    fmin(finest[0], fmin(finest[1], finest[2])),
+                    fmax(finest[0], fmax(finest[1], finest[2])));
+}
+
+static void say_advice(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_estimate *order = &of->answer[line->axis].order;
+    const bool none = !isfinite(order->value) || order->low <= 0;
+    if (br_orders_is_grid(o) || isfinite(line->observed.factor.low))
+        return;
+    if (quantity_of(o, of)->is_value)
+        say_restless(d, o, of, line);
+    else if (!none)
+        say_unstable(d, line);
+    else if (!br_orders_stays(line))
+        say_uneven(d, line);
 }
 
 /* What follows from the formal order: an index that trusts it. */
@@ -542,8 +632,10 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             say_cells_left_out(d, o, of);
         else
             say_left_out(d, of);
-        if (line)
+        if (line) {
             say_formal(d, o, of);
+            say_advice(d, o, of, line);
+        }
     }
     if (o->numbers->taken)
         br_put_answer(d, "Read: %s.", o->numbers->taken);

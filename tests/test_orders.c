@@ -999,6 +999,26 @@ TEST(test_advice)
     if (!strstr(why, "Take a tolerance of 0.01, or give errors with more digits") ||
         strstr(why, "add a row"))
         fail_msg("%s", why);
+    static const struct {
+        const char *table, *values, *expect, *says;
+    } rows[] = {
+        {"dt,e\n.1,.2\n.05,.05\n.025,.0125\n.0125,30\n.00625,1e8\n", NULL, "e: k 2 +- 0.1",
+         "the errors fall, but from dt = 0.025 on they grow, to 1.00e+08: a scheme that is not"},
+        {"dt,e\n.1,1e9\n.05,3e4\n.025,.0125\n.0125,.0031\n.00625,.00078\n", NULL, "e: k 2 +- 0.1",
+         "the coarse ones are beyond a limit of stability"},
+        {"n,e\n8,.1\n16,.04\n32,.022\n64,.04\n128,.003\n", NULL, "e: h 2 +- 0.1",
+         "the errors rise and fall: converge each run further"},
+        {"n,e\n8,1.31\n16,.92\n32,1.22\n64,.85\n128,1.3\n", "e", "e: h 2 +- 0.1",
+         "the differences rise and fall: converge each run further"},
+        {"n,e\n8,1\n16,1.1\n32,1.3\n64,1.7\n128,2.5\n", "e", "e: h 2 +- 0.1",
+         "the differences grow with each finer size: there is no convergence"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_not_equal(verdict_of(rows[i].table, rows[i].values, rows[i].expect, why),
+                             BR_PASS);
+        if (!strstr(why, rows[i].says))
+            fail_msg("%zu: %s", i, why);
+    }
 }
 
 /* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */

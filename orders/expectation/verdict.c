@@ -209,17 +209,39 @@ static struct trend trend_of(const struct br_case *c)
     return t;
 }
 
+/* Says that errors without an order do not fall from size to size; false: they do. */
+static bool advise_uneven(struct br_case *c)
+{
+    size_t rises = 0;
+    for (size_t i = 1; i < c->points; i++)
+        rises += c->point[i].error > c->point[i - 1].error;
+    if (!rises || c->of_grid || br_order_determined(&c->order))
+        return false;
+    br_append(c->reason, sizeof c->reason, "; the %s %s",
+              c->point[0].z_against > 0 ? "differences" : "errors",
+              rises + 1 == c->points ? "grow with each finer size: there is no convergence"
+                                     : "rise and fall: converge each run further, or measure over "
+                                       "the whole domain and time");
+    return true;
+}
+
 /* Says what would settle the verdict: which way the orders from size to size go decides it. */
 static void advise(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
     const struct trend t = trend_of(c);
     const double few = 0.05 * e->order; /* errors of few digits leave an order so far off */
+    static const double no_order = 10;  /* errors that fall faster are those of unstable steps */
+    if (advise_uneven(c))
+        return;
     if (t.nearer)
-        br_append(c->reason, sizeof c->reason,
-                  "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
-                  "asymptotic. Start finer, or refine further",
-                  t.last, t.first);
+        br_append(
+            c->reason, sizeof c->reason,
+            "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are %s. Start "
+            "finer, or refine further",
+            t.last, t.first,
+            t.first > no_order && c->kind == BR_VERIFY_TIME ? "beyond a limit of stability"
+                                                            : "not asymptotic");
     else if (t.stays && !t.outside && enough(c) < few)
         br_append(
             c->reason, sizeof c->reason,
@@ -307,6 +329,24 @@ static const struct br_point *turning_point(const struct br_case *c)
     return clear ? last - 2 : NULL;
 }
 
+/* The errors fall, then grow; without an order from the smallest one on. */
+static void conclude_growth(struct br_case *c, const struct br_point *from)
+{
+    char text[64], order[96] = "the errors fall";
+    const struct br_point *last = c->point + c->points - 1;
+    const bool known = br_order_determined(&c->order);
+    if (known)
+        snprintf(order, sizeof order, "the order is %s",
+                 br_order_text(&c->order, text, sizeof text));
+    while (!known && from > c->point && from[-1].error > 0 && from->error > from[-1].error)
+        from--;
+    conclude(c, BR_FAIL, "%s, but from %s on %s grow, to %.2e: %s", order, from->label,
+             known ? "the errors" : "they", last->error,
+             c->kind == BR_VERIFY_TIME
+                 ? "a scheme that is not stable for small steps does that, and so does round-off"
+                 : "an explicit scheme whose time step stays does that, and so does round-off");
+}
+
 static void judge_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
@@ -316,8 +356,7 @@ static void judge_beyond(struct br_case *c, const struct br_point *first)
     const bool falls = first->error < before->error;
     br_order_text(&c->order, text, sizeof text);
     if (blows_up(c)) {
-        conclude(c, BR_FAIL, "the order is %s, but from %s on the errors grow, to %.2e", text,
-                 first->label, c->point[c->points - 1].error);
+        conclude_growth(c, first);
         return;
     }
     conclude(c, BR_INCONCLUSIVE, "the order is %s, but from %s on the errors %s, %.2e", text,
@@ -573,8 +612,7 @@ void br_case_judge(struct br_case *c)
     else if (c->open)
         conclude(c, BR_INCONCLUSIVE, "%s", c->open);
     else if (turns)
-        conclude(c, BR_FAIL, "the errors fall, but from %s on they grow, to %.2e", turns->label,
-                 c->point[c->points - 1].error);
+        conclude_growth(c, turns);
     else if (beyond) {
         judge_beyond(c, beyond);
         judge_constant(c);
