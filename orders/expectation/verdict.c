@@ -340,11 +340,12 @@ static void conclude_growth(struct br_case *c, const struct br_point *from)
                  br_order_text(&c->order, text, sizeof text));
     while (!known && from > c->point && from[-1].error > 0 && from->error > from[-1].error)
         from--;
-    conclude(c, BR_FAIL, "%s, but from %s on %s grow, to %.2e: %s", order, from->label,
-             known ? "the errors" : "they", last->error,
-             c->kind == BR_VERIFY_TIME
-                 ? "a scheme that is not stable for small steps does that, and so does round-off"
-                 : "an explicit scheme whose time step stays does that, and so does round-off");
+    conclude(c, BR_FAIL, "%s, but from %s on %s grow, to %.2e", order, from->label,
+             known ? "the errors" : "they", last->error);
+    if (!(c->duration > 0)) /* all schemes of the beam are implicit */
+        br_append(c->reason, sizeof c->reason, ": %s does that, and so does round-off",
+                  c->kind == BR_VERIFY_TIME ? "a scheme that is not stable for small steps"
+                                            : "an explicit scheme whose time step stays");
 }
 
 static void judge_beyond(struct br_case *c, const struct br_point *first)
