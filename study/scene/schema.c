@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The format of scenes: its keys, a row each, and how the value of each kind is read. */
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -162,9 +161,8 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
     const double value = strtod(text, &behind);
     const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
     const size_t blanks = strspn(behind, " ");
-    if (behind == text ||
-        (*behind && *behind != ' ' && *behind != '%' && !isalpha((unsigned char)*behind)) ||
-        !isfinite(value) || length >= MOST_UNIT)
+    if (behind == text || (*behind && strchr(".,", *behind)) || !isfinite(value) ||
+        length >= MOST_UNIT)
         return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
                                br_yaml_text(v->node), v->unit,
                                *behind == ',' ? ", with a point before decimals" : "");
