@@ -1735,3 +1735,18 @@ TEST(test_refused_windows)
         br_numbers_clear(&n);
     }
 }
+
+static enum br_status whole_window(const void *text, struct br_error *why)
+{
+    struct br_numbers numbers;
+    const enum br_status status = read_window(text, NULL, 3, "8", &numbers);
+    if (status)
+        *why = err;
+    br_numbers_clear(&numbers);
+    return status;
+}
+
+TEST(test_windows_without_memory)
+{
+    br_test_without_memory(whole_window, "n,l2\n4,1\n8,.3\n16,.09\n32,.02\n64,.006\n", 20);
+}
