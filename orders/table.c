@@ -139,8 +139,10 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
     struct br_numbers *n = s->numbers;
     if (br_roles_check_words(r, column, err))
         return err->status;
-    for (size_t i = 0; i < n->rows && r->groups > 1; i++)
+    for (size_t i = 0; i < n->rows && r->groups > 1; i++) {
         n->row[i].absent[quantity] = true;
+        n->row[i].number[quantity] = NAN;
+    }
     for (size_t i = 0; i < r->rows; i++) {
         if (r->dropped[i] || r->group[i] != group)
             continue;

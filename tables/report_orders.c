@@ -405,9 +405,11 @@ static void put_number(struct br_document *d, const struct br_orders *o,
     const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
     const double found = r->number[of->quantity];
-    const char *left_out = r->failure || isnan(found)                ? br_flag_name(BR_FLAG_FAILED)
-                           : r->out[of->quantity] == BR_FLAG_BY_HAND ? br_flag_name(BR_FLAG_BY_HAND)
-                                                                     : "";
+    const bool absent = r->absent && r->absent[of->quantity];
+    const char *left_out = r->failure || (isnan(found) && !absent) ? br_flag_name(BR_FLAG_FAILED)
+                           : !absent && r->out[of->quantity] == BR_FLAG_BY_HAND
+                               ? br_flag_name(BR_FLAG_BY_HAND)
+                               : "";
     char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
     if (number)
         snprintf(prefix, sizeof prefix, "%zu ", number);
