@@ -160,15 +160,13 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
     struct br_unit unit;
     const double value = strtod(text, &behind);
     const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
-    const size_t blanks = strspn(behind, " ");
     if (behind == text || (*behind && strchr(".,", *behind)) || !isfinite(value) ||
         length >= MOST_UNIT)
         return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
                                br_yaml_text(v->node), v->unit,
                                *behind == ',' ? ", with a point before decimals" : "");
     snprintf(word, sizeof word, "%.*s", (int)length, behind);
-    const enum br_status status =
-        br_scene_read_unit(v, word + (blanks < length ? blanks : length), &unit);
+    const enum br_status status = br_scene_read_unit(v, word + strspn(word, " "), &unit);
     if (status)
         return status;
     if (br_unit_convert(&unit, text, (size_t)(behind - text), q) && isfinite(q->value))
