@@ -18,6 +18,7 @@ import pytest
 BASELINE = "orders-baseline.json"
 FORMAT = {"format": "beamrate pytest", "version": 1}
 MOST = 2  # a constant may change by such a factor
+TOLERANCE = 0.1  # usual, and of orders that are at least so high
 
 
 def pytest_addoption(parser):
@@ -59,7 +60,7 @@ def _write(path, key, cases):
 
 def _differences(case, before):
     """What is serious, as `beamrate check --compare` calls it."""
-    if not abs(case["order"] - before["order"]) < before["tolerance"]:
+    if not abs(case["order"] - before["order"]) < (before["tolerance"] or TOLERANCE):
         yield f"the baseline's order is {before['order']:.2f}"
     now, then = case["constant"], before["constant"]  # None: there is none
     if now and then and not 1 / MOST < now / then < MOST:
@@ -85,10 +86,11 @@ class Orders:
         self.update = request.config.getoption("--update-baseline")
         self.cases = {}
 
-    def check(self, data, expect=None, *, tolerance=0.1, down_to=0, **columns):
+    def check(self, data, expect=None, *, tolerance=TOLERANCE, down_to=0, **columns):
         """data: all that beamrate.orders takes with its sizes in it, or what it returns. l2=2: the order of
-        the column l2, within 0.1; l2=(2, 0.2): within 0.2; l2={"h": 2, "k": 1}: of a grid. expect: the
-        same as a mapping, for names that are no words of Python: {"L2 error": 2}. Returns the orders."""
+        the column l2, within 0.1; l2=(2, 0.2): within 0.2; l2=(2, 0): at least 2; l2={"h": 2, "k": 1}: of a
+        grid. expect: the same as a mapping, for names that are no words of Python: {"L2 error": 2}. Returns
+        the orders."""
         __tracebackhide__ = True
         import beamrate  # not before it is needed: each start of pytest reads this file
         wanted = (expect or {}) | columns
