@@ -28,7 +28,7 @@ static const struct elsewhere {
     {"html", "format", ""},
     {"latex", "format", ""},
     {"jobs", "threads", ""},
-    {"steps", "k", " --k steps=LIST gives numbers of steps; of a scene, --k T/100."},
+    {"steps", "k", " --k steps=LIST gives numbers of steps."},
     {"dofs", "n", " --n dofs=LIST gives numbers of unknowns."},
     {"level", "n", " --n level=LIST gives levels."},
 };

@@ -33,6 +33,7 @@ enum br_option_id {
     BR_OPT_REPEAT,
     BR_OPT_N,
     BR_OPT_K,
+    BR_OPT_STEPS,
     BR_OPT_REFERENCE,
     BR_OPT_NORM,
     BR_OPT_METHODS,

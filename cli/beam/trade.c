@@ -126,7 +126,7 @@ static enum br_status check_used(const struct trade_run *r, bool split, struct b
         fixed |= !methods->list[i].method.scheme->adaptive;
         adaptive |= methods->list[i].method.scheme->adaptive;
     }
-    static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPTIONS};
+    static const enum br_option_id of_fixed[] = {BR_OPT_STEPS, BR_OPT_K, BR_OPTIONS};
     const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerance"
                           : fixed                                            ? NULL
                                   : br_first_given(o, of_fixed);
