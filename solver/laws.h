@@ -66,7 +66,7 @@ struct br_friction_model {
 };
 
 /* By enum br_friction_law; all NULL: no friction. */
-extern const struct br_friction_model br_friction_models[BR_FRICTION_LAWS];
+extern const struct br_friction_model br_friction_models[];
 
 /* Whether there is friction, and whether its bound depends on the penetration of the contact. */
 bool br_friction_rubs(const struct br_friction *friction);

@@ -297,7 +297,7 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
     if (!br_law_is_known(&scene->friction))
         return br_fail(err, BR_BAD_INPUT,
                        "the exact solution does not know the scene's law of friction, expected "
-                       "another reference, as --reference fine");
+                       "another reference, as --reference fine:N,K");
     const bool still = (scene->axial.modelled && !(scene->axial.viscosity > 0)) ||
                        (scene->bending.modelled && !(scene->bending.viscosity > 0));
     if (still && !(scene->density > 0))
