@@ -55,7 +55,7 @@ struct br_numbers_row {
     size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
-    bool kept;                   /* whether its numbers were kept from an earlier run */
+    bool cached;                 /* whether its numbers were kept from an earlier run */
     char *failure;               /* why it has no numbers; NULL: it has; owned */
 };
 
@@ -224,8 +224,8 @@ struct br_orders_forecast {
     double number;                     /* the finest error; of a value its GCI */
     double order, z, ratio;            /* order; size of that row, over the next coarser one */
 };
-struct br_orders_forecast br_orders_foresee(const struct br_orders *orders,
-                                            const struct br_quantity_orders *of);
+struct br_orders_forecast br_orders_forecast_of(const struct br_orders *orders,
+                                                const struct br_quantity_orders *of);
 
 /* The error, or GCI, one step finer, by the same ratio; *given (out): the size, as it is stated. */
 double br_orders_next(const struct br_orders *orders, const struct br_orders_forecast *f,

@@ -67,7 +67,7 @@ struct br_orders_request {
     double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
-    const char *kept;                   /* the folder of finished cells, made where it is missing;
+    const char *cache;                   /* the folder of finished cells, made where it is missing;
                                            NULL: none */
     bool anew;                          /* whether cells that are kept are run again */
     const struct br_observer *observer; /* may be NULL */

@@ -37,9 +37,9 @@ grid: scene
 fit: grid
 ranks: grid
 run:
-foresee: grid run
+estimate: grid run
 verify: fit grid scene
-trade: fit foresee grid scene
+trade: estimate fit grid scene
 extremes: run scene
 paper: grid run scene
 '

@@ -53,7 +53,7 @@ static void find_truth(const struct hard_load *c, struct truth *truth)
         truth->round_off[v] += 1e-13L * largest(truth->tip, v);
 }
 
-/* ---- the judge ---- */
+/* ---- the reference ---- */
 
 enum outcome { RIGHT, REFUSED, UNSURE, WRONG, OUTCOMES }; /* unsure: the oracle is */
 
@@ -254,7 +254,7 @@ TEST(test_hard_loads)
     }
     for (size_t k = 0; k < HARD_KINDS; k++) {
         const size_t all = count[k][RIGHT] + count[k][REFUSED] + count[k][UNSURE] + count[k][WRONG];
-        print_message("# %-20s %4zu right %4zu refused %4zu not judged %4zu silently wrong\n",
+        print_message("# %-20s %4zu right %4zu refused %4zu not checked %4zu silently wrong\n",
                       hard_kinds[k].text, count[k][RIGHT], count[k][REFUSED], count[k][UNSURE],
                       count[k][WRONG]);
         wrong += count[k][WRONG];

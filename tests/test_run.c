@@ -11,7 +11,7 @@
 
 /* ---- energies ---- */
 
-/* Half of a'Ma or a'Ka of nodal values, by the judge's elements, J. */
+/* Half of a'Ma or a'Ka of nodal values, by the reference's elements, J. */
 static double energy_of(const struct br_field *f, enum br_element_matrix matrix, const double *a)
 {
     const struct br_element *e = br_element_of(f->kind, f->degree);

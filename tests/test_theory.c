@@ -248,7 +248,7 @@ static double rate_in_k(const struct br_scene *scene, struct br_theory *theory)
 {
     static const size_t n[] = {4}, steps[] = {80, 160};
     struct br_error err = {0};
-    struct br_study s = br_test_study(scene, &br_judge_fine, 1, n, 2, steps);
+    struct br_study s = br_test_study(scene, &br_reference_fine, 1, n, 2, steps);
     s.norm = &br_norm_energy; /* of velocities, where the start is seen */
     s.method = br_test_method(NULL, "implicit", NULL);
     s.method.scheme = br_time_scheme_find("sdirk2");

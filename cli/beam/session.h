@@ -5,7 +5,7 @@
 
 #include "cli/session.h"
 #include "solver/scene.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "study/grid/costs.h"
 #include "study/trade/split.h"
 #include "study/trade/trial.h"

@@ -102,6 +102,6 @@ char *br_case_note(const struct br_case *c, char text[BR_CASE_NOTE]);
 void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);
 
 /* The verdict on what was observed. */
-void br_case_judge(struct br_case *c);
+void br_case_decide(struct br_case *c);
 
 #endif

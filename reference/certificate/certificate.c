@@ -188,8 +188,8 @@ static double coulomb(const struct br_friction *f, double depth)
     return f->coefficient * depth;
 }
 
-/* The bounds as a judge has them. A law without a row gets NaN, which passes no check. `steepest`:
- * most that a bound grows with the depth, over its coefficient. */
+/* The bounds as a reference has them. A law without a row gets NaN, which passes no check.
+ * `steepest`: most that a bound grows with the depth, over its coefficient. */
 static const struct {
     double (*bound)(const struct br_friction *friction, double depth);
     double steepest;

@@ -134,10 +134,11 @@ double br_reference_seconds(const struct br_study *s)
         levels = s->steps[j] > levels ? s->steps[j] : levels;
     for (size_t i = 0; i < s->n_count; i++)
         n = s->n[i] > n ? s->n[i] : n;
-    if (!s->judge->nests)
+    if (!s->reference_kind->nests)
         return nanosecond * create_ns +
-               sampling(s->scene, s->judge == &br_judge_mms ? sample_given_ns : sample_exact_ns, n,
-                        levels);
+               sampling(s->scene,
+                        s->reference_kind == &br_reference_mms ? sample_given_ns : sample_exact_ns,
+                        n, levels);
     const struct br_planned_march fine = reference_of(s);
     return br_march_seconds(&fine) + sampling(s->scene, sample_fine_ns, fine.n, levels);
 }
@@ -178,9 +179,9 @@ void br_costs_add_study(struct br_costs *w, const struct br_study *s)
         add(w, &cell, br_cell_seconds(s, c));
     }
     const struct br_planned_march fine = reference_of(s);
-    if (s->judge->create && s->judge->nests)
+    if (s->reference_kind->create && s->reference_kind->nests)
         add(w, &fine, br_reference_seconds(s));
-    else if (s->judge->create)
+    else if (s->reference_kind->create)
         add_time(w, br_reference_seconds(s));
 }
 

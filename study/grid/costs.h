@@ -55,8 +55,8 @@ struct br_costs {
     size_t marches; /* cells and fine references are marches, too */
     size_t untimed; /* of these, those that choose their steps: their time is not known */
     double seconds; /* of one thread, where known */
-    double steps;   /* of these, what steps take: without errors and judges */
-    double longest; /* march or judge, s */
+    double steps;   /* of these, what steps take: without errors and references */
+    double longest; /* march or reference, s */
     double bytes;   /* at one time */
     struct br_planned_march dearest; /* the longest march; borrows */
 };

@@ -80,7 +80,7 @@ static double study(const struct row *r, const struct br_scene *scene, const str
 {
     struct br_error err = {0};
     struct br_costs work = {0};
-    struct br_study s = br_test_study(scene, br_judge_best(scene), count_of(r->n), r->n,
+    struct br_study s = br_test_study(scene, br_reference_best(scene), count_of(r->n), r->n,
                                       count_of(r->steps), r->steps);
     s.method = *m;
     br_costs_add_study(&work, &s);
@@ -109,7 +109,7 @@ static double trade(const struct row *r, const struct br_scene *scene, double *t
                                                   .tolerances = 3},
                           &err));
     const double begun = br_thread_seconds();
-    MUST(br_trade_foresee(&t, &err));
+    MUST(br_trade_estimate(&t, &err));
     MUST(br_trade_run(&t, &err));
     *took = br_thread_seconds() - begun;
     const double forecast = t.forecast.seconds;

@@ -95,7 +95,7 @@ enum br_extreme_class {
     BR_EXTREME_UNKNOWN,  /* inaccurate, and says that its error is not known */
     BR_EXTREME_UNSTABLE, /* as predicted */
     BR_EXTREME_REFUSED,
-    BR_EXTREME_UNJUDGED, /* given up by the map */
+    BR_EXTREME_UNCHECKED, /* given up by the map */
     BR_EXTREME_WRONG,
     BR_EXTREME_CLASSES
 };
@@ -103,7 +103,7 @@ extern const char *const br_extreme_words[BR_EXTREME_CLASSES];
 
 /* What the error is measured by. */
 enum br_extreme_by { BR_BY_NOBODY, BR_BY_EXACT, BR_BY_REFINEMENT };
-extern const char *const br_extreme_judges[];
+extern const char *const br_extreme_sources[];
 
 struct br_extreme_verdict {
     enum br_extreme_class which;
@@ -117,7 +117,7 @@ struct br_extreme_verdict {
     char why[200];   /* the reason why it is not right; one line */
 };
 
-/* An error over the stated one, where it is larger than that and the slack of the judge; else 0. */
+/* An error over the stated one, where it is larger than that and the slack of the reference; else 0. */
 double br_extreme_beyond(double error, double slack, double stated);
 
 /* The class of an answer by the members by, known, error and warned, and by how far an error is
@@ -125,15 +125,15 @@ double br_extreme_beyond(double error, double slack, double stated);
 enum br_extreme_class br_extreme_class_of(const struct br_extreme_verdict *verdict, double beyond);
 
 /* How judging is done; zeros: as the map does. */
-struct br_extreme_judging {
+struct br_extreme_options {
     bool quick;            /* without the exact solution */
     double stated_divisor; /* divides the stated errors, so that tests see what is called wrong; 0:
                               as stated */
 };
 
 /* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */
-enum br_status br_extreme_judge(const struct br_extreme_case *one,
-                                const struct br_extreme_judging *judging,
+enum br_status br_extreme_check(const struct br_extreme_case *one,
+                                const struct br_extreme_options *options,
                                 struct br_extreme_verdict *verdict, struct br_error *err);
 
 #endif

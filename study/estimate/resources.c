@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/estimate/warnings.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/resource.h>
+
+static const double day = 86400, most_days = 36525; /* a century */
+
+/* The number after a word in a file, times its unit in bytes; INFINITY: not found. */
+static double read_bytes(const char *path, const char *word, double unit)
+{
+    char line[256];
+    double value = INFINITY;
+    FILE *file = fopen(path, "r");
+    while (file && fgets(line, sizeof line, file)) {
+        double found;
+        if (strncmp(line, word, strlen(word)) == 0 &&
+            sscanf(line + strlen(word), "%lf", &found) == 1)
+            value = found * unit;
+    }
+    if (file)
+        fclose(file);
+    return value;
+}
+
+static double group_limit(void)
+{
+    const double most = read_bytes("/sys/fs/cgroup/memory.max", "", 1);
+    const double used = read_bytes("/sys/fs/cgroup/memory.current", "", 1);
+    return isfinite(most) && isfinite(used) ? fmax(most - used, 0) : most;
+}
+
+/* The free part of the address space. */
+static double address_space(void)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return INFINITY;
+    const double used = read_bytes("/proc/self/status", "VmSize:", 1024);
+    return fmax((double)limit.rlim_cur - (isfinite(used) ? used : 0), 0);
+}
+
+double br_memory_available(void)
+{
+    const double machine = read_bytes("/proc/meminfo", "MemAvailable:", 1024);
+    return fmin(machine, fmin(group_limit(), address_space()));
+}
+
+enum br_status br_fits_memory(const struct br_planned_march *o, double available,
+                              struct br_error *err)
+{
+    const double bytes = br_march_bytes(o);
+    if (bytes <= available)
+        return BR_OK;
+    const double fit = floor(available / (bytes / (double)o->n));
+    return br_fail(err, BR_NO_MEMORY,
+                   "n = %zu elements take about %.3g GB (%.0f bytes each), %.3g GB are available: "
+                   "expected at most %.3g elements",
+                   o->n, bytes / 1e9, bytes / (double)o->n, available / 1e9, fit);
+}
+
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err)
+{
+    struct br_costs w = {.together = true};
+    for (size_t i = 0; i < count; i++)
+        br_costs_add_study(&w, &studies[i]);
+    if (w.bytes <= available)
+        return BR_OK;
+    return br_fail(err, BR_NO_MEMORY,
+                   "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
+                   "of them, or fewer elements",
+                   w.marches, w.bytes / 1e9, available / 1e9);
+}
+
+static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,
+                                 struct br_error *err)
+{
+    const double days = br_march_seconds(o) / day;
+    if (days > most_days)
+        return br_fail(err, BR_BAD_INPUT,
+                       "n = %zu and %zu steps take about %.2g years, expected at most a hundred: "
+                       "longer steps or fewer elements",
+                       o->n, o->steps, days / 365.25);
+    if (days > 1)
+        br_warn(w, BR_WARN_LONG, "longer steps or fewer elements, or a scheme of higher order",
+                "n = %zu and %zu steps take about %.2g days", o->n, o->steps, days);
+    return BR_OK;
+}
+
+enum br_status br_check_resources(const struct br_planned_march *o, struct br_warnings *w,
+                                  struct br_error *err)
+{
+    const enum br_status status = br_fits_memory(o, br_memory_available(), err);
+    return status ? status : check_time(o, w, err);
+}
