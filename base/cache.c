@@ -24,7 +24,7 @@ void br_cache_begin(const struct br_cache *k, const char *work, struct br_statem
 
 /* ---- entries ---- */
 
-/* Of a kept folder: the path of an entry, or of its unfinished file. */
+/* Of a cache: the path of an entry, or of its unfinished file. */
 static void name(const struct br_cache *k, const char *text, bool finished, char path[1300])
 {
     char key[BR_SHA256_TEXT];

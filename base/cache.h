@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finished work that is kept in a folder, one file per entry, so that it is not done again.
+/* A cache: finished work in a folder, one file per entry, so that it is not done again.
  *
  * An entry belongs to one text, which states the whole request (base/statement.h). Its name
  * is the SHA-256 of that text, and its file has the text, the numbers, and a sum of both. It is
@@ -17,7 +17,7 @@
 #include "base/text.h"
 
 struct br_cache {
-    char folder[1100]; /* "": nothing is kept */
+    char folder[1100]; /* "": no cache */
     bool take;         /* entries that are there; else they are written anew */
 };
 
@@ -27,11 +27,11 @@ void br_cache_begin(const struct br_cache *cache, const char *work, struct br_st
 /* ---- entries: text.h has their numbers ---- */
 
 /* Reads the entry of a text into *self (out; means nothing where it fails). False: it is not there,
- * or is not to be taken. kept or text NULL: nothing is. */
+ * or is not to be taken. cache or text NULL: nothing is. */
 bool br_cache_take(const struct br_cache *cache, const char *text, br_record_pass *pass,
                    void *self);
 
-/* Writes an entry, but no wrong one. False where that fails (a full disk; see errno). kept NULL:
+/* Writes an entry, but no wrong one. False where that fails (a full disk; see errno). cache NULL:
  * does nothing. */
 bool br_cache_put(const struct br_cache *cache, const char *text, br_record_pass *pass, void *self);
 

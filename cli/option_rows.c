@@ -100,7 +100,7 @@ static const struct br_option rows[] = {
      "write the results into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not exist."},
 
-    /* what is kept */
+    /* what is cached */
     {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are cached", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_ORDERS,
      .more = "After an interruption, or for a larger grid. Finished runs are cached in DIR/.cache, "

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The paper's judge: a fine run of the same scheme. It shares every bug of the
+/* The paper's reference: a fine run of the same scheme. It shares every bug of the
  * solver, and has an error of its own. */
 #include <math.h>
 
@@ -77,7 +77,8 @@ static void fine_sample(void *self, const struct br_sample_at *at, struct br_vie
 }
 
 /* The predicted round-off at the end, relative to the largest displacement of all times: cells are
- * judged by the same (study/fit/fit.c). br_march_round_off would also cover the first steps. */
+ * measured against the same (study/fit/fit.c). br_march_round_off would also cover the first steps.
+ */
 static double round_off(const struct fine *f)
 {
     double largest = 0;

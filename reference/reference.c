@@ -10,7 +10,10 @@ const struct br_reference br_reference_none = {
 };
 
 const struct br_reference *const br_references[] = {
-    &br_reference_exact, &br_reference_fine, &br_reference_mms, NULL,
+    &br_reference_exact,
+    &br_reference_fine,
+    &br_reference_mms,
+    NULL,
 };
 
 const struct br_reference *br_reference_find(const char *name)
@@ -23,5 +26,6 @@ const struct br_reference *br_reference_find(const char *name)
 
 const struct br_reference *br_reference_best(const struct br_scene *scene)
 {
-    return scene->axial.solution || scene->bending.solution ? &br_reference_mms : &br_reference_exact;
+    return scene->axial.solution || scene->bending.solution ? &br_reference_mms
+                                                            : &br_reference_exact;
 }

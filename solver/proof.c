@@ -217,19 +217,19 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, iv *value
     enum { MOST = 500 };
     struct subbox subbox[MOST] = {subbox_of(f, used_box(f, box))};
     const struct br_box whole = subbox[0].box;
-    iv seen = {INFINITY, -INFINITY};
+    iv sampled = {INFINITY, -INFINITY};
     for (size_t count = 1;; count++) {
         const size_t top = find_worst(subbox, count, 1), bottom = find_worst(subbox, count, -1);
         *value = (iv){subbox[bottom].value.low, subbox[top].value.high};
         for (int k = 0; k < 2; k++) {
             const struct br_box *at = &subbox[k ? top : bottom].box;
             const double x = middle(at->x), found = br_function_at(f, x, middle(at->t));
-            if (!(fabs(found) <= magnitude(seen)) || count == 1)
+            if (!(fabs(found) <= magnitude(sampled)) || count == 1)
                 *peak = (struct br_box){point(x), point(middle(at->t))};
-            seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
+            sampled = (iv){fmin(sampled.low, found), fmax(sampled.high, found)};
         }
-        const double above = value->high - seen.high, below = seen.low - value->low;
-        if (count == MOST || (above + below) * 20 <= width(seen) ||
+        const double above = value->high - sampled.high, below = sampled.low - value->low;
+        if (count == MOST || (above + below) * 20 <= width(sampled) ||
             !halve(f, whole, subbox, above >= below ? top : bottom, count))
             break;
     }

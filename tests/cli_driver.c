@@ -135,8 +135,8 @@ bool cli_is_there(const char *name)
     return stat(path, &info) == 0;
 }
 
-/* Files in a folder below the working one: hidden ones too, but not the list of sets, nor the folder
- * of cached work. */
+/* Files in a folder below the working one: hidden ones too, but not the list of sets, nor the
+ * folder of cached work. */
 size_t cli_count_files(const char *name)
 {
     char path[512];

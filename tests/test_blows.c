@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference under loads that nobody sees by sampling: short blows, narrow patches, jumps,
  * moving fronts and pulses, at random places, in random lengths, durations, masses and stiffnesses.
- * An oracle that knows where its loads are judges the tip: it shares nothing with the reference, so
+ * An oracle that knows where its loads are checks the tip: it shares nothing with the reference, so
  * that both are right where they agree. An answer is right within what it
  * states, or it is refused. */
 #include <math.h>

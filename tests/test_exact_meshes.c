@@ -101,14 +101,14 @@ TEST(test_mesh_of_means)
     struct br_function f = br_test_function("x*t");
     for (double length = 1e-3; length < 1e4; length *= 100) {
         const double mean = length / 2 * 3 / 2;
-        const double seen = br_function_mesh_mean(&f, (struct br_box){{0, length}, {0, 3}});
-        AT_MOST(seen, mean * (1 + 1e-9));
-        AT_MOST(mean / 2, seen);
+        const double found = br_function_mesh_mean(&f, (struct br_box){{0, length}, {0, 3}});
+        AT_MOST(found, mean * (1 + 1e-9));
+        AT_MOST(mean / 2, found);
     }
     br_function_free(&f);
 }
 
-/* A root is never smooth at 0: its last cell holds what it holds, unseen. */
+/* A root is never smooth at 0: its last cell holds what it holds, unresolved. */
 TEST(test_mesh_of_a_root)
 {
     struct br_error err;

@@ -174,7 +174,7 @@ static size_t refined(const struct br_trade *t)
 }
 
 /* The least error within some seconds. The coarsest mesh may do. A reference whose own error
- * depends on the mesh is asked where it is best. What the reference cannot judge is refused. */
+ * depends on the mesh is asked where it is best. What the reference cannot resolve is refused. */
 TEST(test_goals)
 {
     static const struct {

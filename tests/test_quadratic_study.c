@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Quadratic elements of the rod in studies: what judges tell of them, and what is kept of a run.
- * Their orders are those that the scenes mms_quadratic and quadratic_rod are checked for. */
+/* Quadratic elements of the rod in studies: what references tell of them, and what is kept of a
+ * run. Their orders are those that the scenes mms_quadratic and quadratic_rod are checked for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static struct br_method method_of(const char *contact)
     return method;
 }
 
-/* ---- judges ---- */
+/* ---- references ---- */
 
 /* Modes are orthonormal: the first ones are the same whatever is kept, and so is the norm. */
 static void check_reference(const struct br_reference *reference_kind, const char *name)

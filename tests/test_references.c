@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Judges that share little: the exact solution (nothing of the solver) and a fine run (all of it).
- * On every bundled scene they must agree about the tip within their error bars. */
+/* References that share little: the exact solution (nothing of the solver) and a fine run (all of
+ * it). On every bundled scene they must agree about the tip within their error bars. */
 #include <math.h>
 
 #include "reference/exact/exact.h"

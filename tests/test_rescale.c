@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The same scene in other units, and with the beam upside down: all that a study reports, by every
- * judge and in every norm, is the same, in its own unit. What is relative to a wrong length, or
+ * reference and in every norm, is the same, in its own unit. What is relative to a wrong length, or
  * squared by mistake, is not. */
 #include <math.h>
 #include <stdlib.h>

@@ -68,7 +68,7 @@ static struct br_run_report run(const struct br_scene *scene, size_t n, size_t s
     return report;
 }
 
-/* A balance that round-off alone may spoil by more than says something is not judged; others are.
+/* A balance that round-off alone may spoil by more than says something is not checked; others are.
  */
 TEST(test_energy_that_says_nothing)
 {

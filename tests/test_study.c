@@ -480,7 +480,7 @@ TEST(test_cells_that_fail)
     }
 }
 
-/* A fine run's own error, by the exact solution, is that of the same cell judged by it. */
+/* A fine run's own error, by the exact solution, is that of the same cell against it. */
 TEST(test_reference_check)
 {
     static const char *const names[] = {"example1", "example2", "example3", "example4"};

@@ -92,7 +92,7 @@ static void finish(struct watched *w)
     *w = (struct watched){0};
 }
 
-/* Both judges pass all steps; clears it. */
+/* Both checks pass all steps; clears it. */
 static void passes(struct watched *w, const char *name, size_t n, size_t steps)
 {
     const struct br_method *m = &w->method;

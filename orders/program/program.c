@@ -66,8 +66,8 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
-/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. A row is
- * of the files with which the study began, or it has failed. */
+/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not cached. A row
+ * is of the files with which the study began, or it has failed. */
 static enum br_status get_row(const struct job *j, const struct br_command_words *words,
                               const char *text, size_t i, struct br_error *err)
 {
@@ -83,7 +83,7 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
     }
     if (!err->status && text && !of.row->cached && !of.row->failure &&
         !br_cache_put(j->cache, text, pass_row, &of))
-        br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s", j->program->cache,
+        br_fail(err, BR_IO, "%.800s: a finished cell could not be cached: %s", j->program->cache,
                 strerror(errno));
     return err->status;
 }
@@ -171,7 +171,8 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
                 "the mesh (--dimension, or 'dimension:')";
     }
     if (!status && !numbers->quantities)
-        status = br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
+        status = br_fail(err, BR_BAD_INPUT,
+                         "every number that is read is a resolution, expected an error or a value");
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
@@ -264,7 +265,7 @@ static enum br_status check_commands(struct job *j, struct br_error *err)
     return status;
 }
 
-/* Cells are kept for all versions of beamrate. */
+/* Cells are cached for all versions of beamrate. */
 static enum br_status open_cache(struct job *j, struct br_error *err)
 {
     const char *folder = j->program->cache;
@@ -284,7 +285,8 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
     if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
         return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
     if (program->readings == 0)
-        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
+        return br_fail(err, BR_BAD_INPUT,
+                       "found nothing to read, expected the name of a number and where it is");
     bool failed = br_program_rows(program, numbers, err) ||
                   make_quantities(program, numbers, err) || check_commands(&j, err) ||
                   (program->cache && open_cache(&j, err));

@@ -25,9 +25,10 @@ struct br_spectral_elements {
     size_t *first; /* count + 1: sum of the terms before */
 };
 
-/* Copies end and terms. After a failure, which the store keeps, the spectral elements are of no use. */
-void br_spectral_init(struct br_spectral_elements *spectral, double length, size_t count, const double *end,
-                    const size_t *terms, struct br_store *store);
+/* Copies end and terms. After a failure, which the store keeps, the spectral elements are of no
+ * use. */
+void br_spectral_init(struct br_spectral_elements *spectral, double length, size_t count,
+                      const double *end, const size_t *terms, struct br_store *store);
 
 /* Where element e's coefficients begin; with e = count, their number. */
 static inline size_t br_spectral_at(const struct br_spectral_elements *p, size_t e, size_t extra)
@@ -42,7 +43,8 @@ static inline double br_spectral_width(const struct br_spectral_elements *p, siz
 }
 
 /* Integral over all x / L of a series. */
-double br_spectral_integral(const struct br_spectral_elements *spectral, size_t extra, const double *c);
+double br_spectral_integral(const struct br_spectral_elements *spectral, size_t extra,
+                            const double *c);
 
 /* c: in, a series with `extra`; out, its integral from x = 0 in x / L, with extra + 1. */
 void br_spectral_integrate(const struct br_spectral_elements *spectral, size_t extra, double *c);
@@ -51,18 +53,18 @@ void br_spectral_integrate(const struct br_spectral_elements *spectral, size_t e
 
 struct br_quadrature {
     const struct br_spectral_elements *spectral; /* borrowed */
-    size_t extra;                   /* of the series */
-    size_t *points;                 /* elements: of its rule */
-    size_t count;                   /* all points */
-    double *x;                      /* count, m: inside of the elements, never at their ends */
-    double *weight;                 /* count: of the rule on [0, 1] */
-    double **table;                 /* elements: points x (terms + extra), p_k at the points */
-    double *value;                  /* count, workspace */
+    size_t extra;                                /* of the series */
+    size_t *points;                              /* elements: of its rule */
+    size_t count;                                /* all points */
+    double *x;      /* count, m: inside of the elements, never at their ends */
+    double *weight; /* count: of the rule on [0, 1] */
+    double **table; /* elements: points x (terms + extra), p_k at the points */
+    double *value;  /* count, workspace */
 };
 
 /* After a failure, which the store keeps, the quadrature is of no use. */
-void br_quadrature_init(struct br_quadrature *q, const struct br_spectral_elements *spectral, size_t extra,
-                        struct br_store *store);
+void br_quadrature_init(struct br_quadrature *q, const struct br_spectral_elements *spectral,
+                        size_t extra, struct br_store *store);
 
 /* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
  * against the polynomials. Elements that contain some of `fronts`, points in m where f jumps or
@@ -82,9 +84,10 @@ struct br_piecewise;
 
 /* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
  * BR_SINGULAR. */
-enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_spectral_elements *spectral,
-                                   size_t extra, const struct br_exact_mesh *mesh,
-                                   struct br_store *store, struct br_error *err);
+enum br_status br_piecewise_create(struct br_piecewise **out,
+                                   const struct br_spectral_elements *spectral, size_t extra,
+                                   const struct br_exact_mesh *mesh, struct br_store *store,
+                                   struct br_error *err);
 
 /* c and rest as br_exact_projection_apply has them. For one thread at a time. */
 void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, double *c,
@@ -120,8 +123,8 @@ void br_list_sort(struct br_list *list);
 
 /* A bound on the error of a polynomial along one variable in the box; infinite where f is not
  * smooth. */
-double br_function_mesh_error(const struct br_function *f, enum br_variable along, struct br_box box,
-                      size_t degree);
+double br_function_mesh_error(const struct br_function *f, enum br_variable along,
+                              struct br_box box, size_t degree);
 
 /* The mean of |f| over a box of one or two variables, at least half of it where it can be found. */
 double br_function_mesh_mean(const struct br_function *f, struct br_box box);
@@ -136,10 +139,11 @@ struct br_function_mesh {
 };
 
 /* Adds the ends of cells inside of a part of the box along each of its variables. For a function
- * of both, switching functions may move in the part. Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the
- * function is not finite, or BR_NO_MEMORY. */
-enum br_status br_function_mesh_add(struct br_function_mesh *function_mesh, struct br_box part, struct br_list ends[2],
-                             struct br_store *store, struct br_error *err);
+ * of both, switching functions may move in the part. Fails with BR_NOT_FINITE: too many,
+ * BR_BAD_INPUT where the function is not finite, or BR_NO_MEMORY. */
+enum br_status br_function_mesh_add(struct br_function_mesh *function_mesh, struct br_box part,
+                                    struct br_list ends[2], struct br_store *store,
+                                    struct br_error *err);
 
 /* ---- all data of a field (data_mesh.c) ---- */
 
@@ -152,7 +156,7 @@ static inline const struct br_function *br_initial_slope(const struct br_scene_f
 
 struct br_data_mesh {
     const struct br_scene_field *data; /* borrowed */
-    size_t degree;         /* of the field: 1 axial, 2 bending */
+    size_t degree;                     /* of the field: 1 axial, 2 bending */
     struct br_list end[2]; /* by br_variable: of the elements, m, from 0 to L; of cells in time, s,
                               that no step may overlook, from 0 to T */
     struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
@@ -165,7 +169,7 @@ struct br_data_mesh {
 /* Clear it even after a failure: BR_NOT_FINITE, the data have details that are too fine,
  * BR_BAD_INPUT where they are not finite, or BR_NO_MEMORY. */
 enum br_status br_data_mesh_init(struct br_data_mesh *data_mesh, const struct br_scene *scene,
-                               enum br_field_kind kind, struct br_error *err);
+                                 enum br_field_kind kind, struct br_error *err);
 void br_data_mesh_clear(struct br_data_mesh *data_mesh);
 
 /* The number of polynomials on element e in a solution that would have `modes` on one element. */
@@ -228,17 +232,17 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 
 struct br_oscillators {
     struct br_modes modes;
-    double length;             /* L, m */
-    double *mass;              /* width, kg; behind the modes 1 */
-    double damping, stiffness; /* N s/m, N/m */
+    double length;                     /* L, m */
+    double *mass;                      /* width, kg; behind the modes 1 */
+    double damping, stiffness;         /* N s/m, N/m */
     const struct br_scene_field *data; /* borrowed */
-    bool fronts;               /* the load's jumps move */
-    double *load_space;        /* BR_LOAD_TERMS x width: of the terms whose space part is constant
-                                  in time */
-    double *load_series;       /* BR_STAGES x br_modes_length(0), workspace for one that is not */
-    double *load_sum;          /* BR_STAGES x width, likewise */
-    double *displacement;      /* modes: at t = 0, m */
-    double *velocity;          /* modes: at t = 0, m/s */
+    bool fronts;                       /* the load's jumps move */
+    double *load_space;   /* BR_LOAD_TERMS x width: of the terms whose space part is constant
+                             in time */
+    double *load_series;  /* BR_STAGES x br_modes_length(0), workspace for one that is not */
+    double *load_sum;     /* BR_STAGES x width, likewise */
+    double *displacement; /* modes: at t = 0, m */
+    double *velocity;     /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
 };
 
@@ -272,8 +276,8 @@ enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_
 
 /* ---- the tip (tip.c) ----
  *
- * The laws (10) and (12), one phase at a time. In each phase the law is linear, and a switching function
- * measures how far the phase is from its end. */
+ * The laws (10) and (12), one phase at a time. In each phase the law is linear, and a switching
+ * function measures how far the phase is from its end. */
 
 /* The tip along one step; series in p_k((t - start) / length). */
 struct br_tip_step {
@@ -344,7 +348,7 @@ double br_law_bound(const struct br_exact_law *law, double t);
 /* The law at a tip in its phase. */
 struct br_law_state {
     double force;       /* on the tip, N; from the series only where the law does not give it */
-    double switching;       /* distance to the end of the phase: negative when it is over */
+    double switching;   /* distance to the end of the phase: negative when it is over */
     enum br_phase next; /* the phase that follows when the switching function ends it */
 };
 struct br_law_state br_law_at(const struct br_exact_law *law, double t,
@@ -409,10 +413,10 @@ void br_stepper_settle(struct br_stepper *s);
 /* ---- the march ---- */
 
 struct br_march_options {
-    double duration;                     /* T, s */
-    const struct br_data_mesh *data_mesh[2]; /* of this field, and NULL or the one that it depends on:
-                                            both limit the steps */
-    double gap;                          /* of the contact, m; 0 for friction */
+    double duration;                         /* T, s */
+    const struct br_data_mesh *data_mesh[2]; /* of this field, and NULL or the one that it depends
+                                            on: both limit the steps */
+    double gap;                              /* of the contact, m; 0 for friction */
     double tolerance;  /* limit of a step's last coefficients, relative to the largest value */
     double first_step; /* s: length of the first step of a phase, always accepted */
     size_t max_steps;

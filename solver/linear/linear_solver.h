@@ -146,7 +146,7 @@ extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack;
  * where friction holds the tip: the held tip creeps by the rounding of the force. */
 extern const struct br_linear_solver br_long_plain;
 
-/* Whether long double has more digits than double, so that anything can be judged. */
+/* Whether long double has more digits than double, so that it can check anything. */
 bool br_long_plain_resolves(void);
 
 /* The functions of `plain`, for both fields, and both degrees of the axial one. */

@@ -353,7 +353,7 @@ static double unresolved(const struct br_scene *s, enum br_field_kind kind, size
 
 /* A bound of the error of R. Two cells have 1/a and 1/2 of its elements or steps, and the distances
  * `coarse` and `finer` from it; the order q solves coarse/finer = (a^q - 1)/(2^q - 1). Where
- * nothing converges, it is `unseen` times as large. */
+ * nothing converges, it is `unresolved` times as large. */
 static double reference_error(double coarse, double a, double finer, double unresolved)
 {
     double low = lowest_order, high = highest_order;
@@ -481,11 +481,11 @@ static enum br_status find_too_short(const struct marches *m, const char **name,
     enum { STAGES = 16, FINER_LEVELS = 64 };
     static const double ignored = 1e-3; /* a smaller share of a load is ignored */
     const struct comparison *c = &m->by[m->by[TIGHT].active ? TIGHT : IN_SPACE];
-    const size_t seen = STAGES * c->study.reference.steps;
+    const size_t resolved = STAGES * c->study.reference.steps;
     struct br_planned_march finer = *m->run;
     struct br_warnings w = {0};
     finer.steps *= FINER_LEVELS;
-    finer.steps = m->by[TIGHT].active && seen > finer.steps ? seen : finer.steps;
+    finer.steps = m->by[TIGHT].active && resolved > finer.steps ? resolved : finer.steps;
     finer.n *= c->study.reference.n / c->n[c->at[RUN]];
     *name = NULL;
     if (br_check_loads(&finer, &w, err))
@@ -507,8 +507,8 @@ static struct br_predicted relative(const struct marches *m, struct br_predicted
     double least = INFINITY;
     *largest = 0;
     for (int i = TIGHT; i < START; i++) {
-        const double *seen = m->by[i].study.reference_size;
-        const double size = seen[kind] > 0 ? seen[kind] : seen[1 - kind];
+        const double *norm = m->by[i].study.reference_size;
+        const double size = norm[kind] > 0 ? norm[kind] : norm[1 - kind];
         least = m->by[i].active ? fmin(least, size) : least;
         *largest = m->by[i].active ? fmax(*largest, size) : *largest;
     }

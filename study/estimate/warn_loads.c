@@ -179,7 +179,7 @@ static bool is_given(const struct br_function *f)
  * smooth functions they differ by O(k^2), for a blow shorter than the step by the whole impulse.
  * Where it jumps, a scheme with one stage uses the value at the end alone. A scheme that chooses
  * its steps finds what the levels show: only what lies beyond their two values may escape it, and
- * that is `unseen`. The exact impulse is integrated on a mesh that is proved to resolve the
+ * that is `unresolved`. The exact impulse is integrated on a mesh that is proved to resolve the
  * function; where one of its cells spans several steps, the difference is bounded by the second
  * derivative: |c_2| k^3 / 6 a step. */
 

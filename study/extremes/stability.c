@@ -70,7 +70,7 @@ static double added(const struct br_run_report *r)
     return share;
 }
 
-/* The share of energy that a march is judged by. Other schemes than Euler's need a second march,
+/* The share of energy that decides on a march. Other schemes than Euler's need a second march,
  * which replaces the report. */
 static enum br_status measure(struct stability_work *w, const struct br_method *method,
                               size_t steps, double *share, struct br_error *err)

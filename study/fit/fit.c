@@ -49,7 +49,7 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
     return status;
 }
 
-/* The reference's own error: by the check, by the reference's statement, or else by the model
+/* The reference's own error: by the reference check, by its statement, or else by the model
  * against a reference without error. */
 static double reference_error(const struct br_study *s, enum br_part part,
                               const struct br_joint_fit *fit)
@@ -66,8 +66,8 @@ static double reference_error(const struct br_study *s, enum br_part part,
                           (double[]){0, 0});
 }
 
-/* Predicted round-off of a component of a cell, m^(3/2); and of the reference, unless a check
- * has measured all of its error. */
+/* Predicted round-off of a component of a cell, m^(3/2); and of the reference, unless a reference
+ * check has measured all of its error. */
 static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
     const struct br_method *method = br_study_method(s, (size_t)(c - s->cell));

@@ -8,9 +8,8 @@
 #include "study/fit/report.h"
 #include "study/grid/differences.h"
 
-enum {
-    BR_DIFFERENCE_SIZES = 12
-}; /* at most; each half of the one before, unless the grid has others */
+/* At most; each half of the one before, unless the grid has others. */
+enum { BR_DIFFERENCE_SIZES = 12 };
 
 /* The differences of a study, by its chain of norms. Begins as zeros. The reports borrow them. */
 struct br_grid_differences {

@@ -52,7 +52,7 @@ struct br_study {
     char *events;                     /* lines that the reference prints; owned; may be NULL */
     double reference_scale;           /* the norm of the reference itself */
     double reference_size[2];         /* the same of each field, by br_field_kind */
-    double reference_error[BR_PARTS]; /* by the check; without one: NaN */
+    double reference_error[BR_PARTS]; /* by the reference check; without one: NaN */
     double reference_tip[2];          /* the reference's displacement at x = L, t = T, m */
     struct br_error failure; /* of the reference or the grid; the rest then means nothing */
 };

@@ -42,7 +42,7 @@ static double project(struct br_study_march *l, const struct br_measured *f, dou
     return br_nested_meshes_norm(f->nested, projection);
 }
 
-/* The distance of the last sample of the reference from the check. */
+/* The distance of the last sample of the reference from the reference check. */
 static double check_reference(struct br_study_march *l, struct br_measured *f)
 {
     l->reference_check.reference_kind->sample(l->reference_check.self, &f->at, &f->check);
@@ -59,7 +59,7 @@ static bool is_checked(const struct br_study_march *l, size_t index)
            (index % l->check_every == 0 || index + 1 == l->level_count);
 }
 
-/* Advances one field of the reference or of the check to a level and measures it. */
+/* Advances one field of the reference or of its check to a level and measures it. */
 static enum br_status measure_level(struct br_study_march *l, const struct br_reference_run *run,
                                     enum br_field_kind kind, size_t index, struct br_error *err)
 {

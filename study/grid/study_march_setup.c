@@ -167,7 +167,7 @@ static size_t longest_lead(const struct br_study_march *l)
     return most;
 }
 
-/* Drops a check that cannot promise a solution of this scene. */
+/* Drops a reference check that cannot promise a solution of this scene. */
 static void drop_reference_check(struct br_study_march *l)
 {
     l->reference_check.reference_kind->free(l->reference_check.self);

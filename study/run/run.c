@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-
 /* Element-steps between two reports of progress. */
 enum { BETWEEN_SIGNS = 1 << 18 };
 
@@ -39,8 +38,9 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
 }
 
 /* The certificate first: its message is more specific. */
-static enum br_status verify_step(const struct br_run_report *report, const struct br_certificate *c,
-                                 double imbalance, struct br_error *verdict)
+static enum br_status verify_step(const struct br_run_report *report,
+                                  const struct br_certificate *c, double imbalance,
+                                  struct br_error *verdict)
 {
     const enum br_status status = br_certificate_check(c, &report->limits, verdict);
     if (status || imbalance <= report->energy_limit)
@@ -99,7 +99,8 @@ static enum br_status watch_progress(void *self, const struct br_march *march,
 enum { MOST_OBSERVERS = BR_MOST_OUTPUTS + 3 };
 
 /* In the order in which they are called. */
-static size_t list_observers(struct observed_run *r, struct br_history_observer list[MOST_OBSERVERS])
+static size_t list_observers(struct observed_run *r,
+                             struct br_history_observer list[MOST_OBSERVERS])
 {
     const struct br_run_request *q = r->request;
     size_t count = 0;

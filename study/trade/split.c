@@ -245,7 +245,7 @@ static enum br_status refine(struct br_split *split, struct refining *r, struct 
 
 struct chain {
     struct distances *d;
-    size_t whole;                /* head: the run and the solution */
+    size_t whole;                /* case: the run and the solution */
     size_t solver_difference[2]; /* cases: riccati against plain, for the run and before the first
                         source in time */
     size_t link[BR_SOURCES];     /* cases */
@@ -298,8 +298,8 @@ static enum br_status check_links(const struct br_split *split, const struct cha
     return BR_OK;
 }
 
-/* The round-off of a march, measured or, where the audit fails, predicted; and the errors of the
- * refined march and of the reference. */
+/* The round-off of a march, measured or, where the difference of the solvers fails, predicted; and
+ * the errors of the refined march and of the reference. */
 static double floor_of(const struct br_split *split, const struct chain *c,
                        const struct br_study *s, bool in_time, size_t norm, enum br_part part)
 {

@@ -148,7 +148,7 @@ static double expected_seconds(const struct br_trade *t, const struct br_trial *
     return seconds;
 }
 
-/* A goal far above the reference's own error alone can be judged. */
+/* A goal far above the reference's own error alone can be resolved. */
 static enum br_status check_reference(const struct br_trade *t, struct br_error *err)
 {
     double own = INFINITY;

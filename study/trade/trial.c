@@ -369,7 +369,7 @@ const struct br_reference *br_trials_reference(const struct br_trial_request *r)
     return r->reference_kind ? r->reference_kind : br_reference_best(r->scene);
 }
 
-/* Judges the complete trials. */
+/* Finds the errors of the complete trials. */
 static enum br_status find_errors(struct br_trial *trial, size_t count,
                                   const struct br_trial_request *request, struct br_error *err)
 {

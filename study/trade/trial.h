@@ -91,15 +91,16 @@ enum br_status br_trials_estimate(struct br_trial *trial, size_t count,
                                   struct br_trial_forecast *forecast, struct br_error *err);
 
 /* Creates a reference, *self (out), that keeps its results for all later calls; NULL: not needed.
- * Fails as the reference does; forget it even then. */
+ * Fails as the reference does; release it even then. */
 enum br_status br_trials_prepare_reference(const struct br_trial_request *request, void **self,
                                            struct br_error *err);
 void br_trials_release_reference(const struct br_trial_request *request,
                                  void *self); /* accepts NULL */
 
-/* Runs trials: times all, one after the other, then judges the complete ones, all at once. A march
- * that fails is a result, and a march over the limit is ended as soon as that is sure. Fails with
- * BR_BAD_INPUT (there is no reference of this scene), BR_NO_MEMORY, BR_INTERRUPTED. */
+/* Runs trials: times all, one after the other, then finds the errors of the complete ones, all at
+ * once. A march that fails is a result, and a march over the limit is ended as soon as that is
+ * sure. Fails with BR_BAD_INPUT (there is no reference of this scene), BR_NO_MEMORY,
+ * BR_INTERRUPTED. */
 enum br_status br_trials_run(struct br_trial *trial, size_t count,
                              const struct br_trial_request *request, struct br_error *err);
 

@@ -77,7 +77,7 @@ struct br_study br_check_study(const struct br_scene_check *check, enum br_verif
     };
 }
 
-/* The study of a section's head h in norm m. */
+/* The study of a section's case h in norm m. */
 static struct br_study *study_in(const struct plan *plan, const struct section *s, size_t h,
                                  size_t m)
 {

@@ -169,7 +169,7 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
 
 /* ---- notes and facts ---- */
 
-/* Puts the reference that judges a study. */
+/* Puts the reference of a study. */
 static void put_reference_line(struct br_document *d, const char *label, const struct br_study *s)
 {
     char method[BR_METHOD_TEXT];

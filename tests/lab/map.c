@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "tests/lab/map.h"
 #include "base/each.h"
+#include "tests/lab/map.h"
 #include "tests/support.h"
 
 enum { SEEDS = 10, SAMPLE = 6, MANY = 100 };
@@ -44,7 +44,8 @@ static size_t try_seed(uint64_t seed, size_t cases, bool all)
     struct br_error err = {0};
     struct map m = {seed, br_allocate(cases, sizeof *m.verdict)};
     size_t count[BR_EXTREME_CLASSES] = {0};
-    if (!m.verdict || br_each(&(struct br_each){.count = cases, .turn = find_verdict, .self = &m}, &err)) {
+    if (!m.verdict ||
+        br_each(&(struct br_each){.count = cases, .turn = find_verdict, .self = &m}, &err)) {
         printf("Bail out! %s\n", err.message);
         exit(99);
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is a stranger's table read as a person reads it? Cases of tests/data/reading, or of other files,
  * with what a person reads, typed before the program was tried. The oracle has its own reading of
- * numbers, and of tables that are simple; it shares nothing with the one that it judges. A case:
+ * numbers, and of tables that are simple; it shares nothing with the one that it checks. A case:
  *
  *     @@ KIND/NAME | OPTIONS | EXPECTATION
  *     @# source, or a remark

@@ -34,7 +34,7 @@ static void join(char *text)
 }
 
 /* What is refused is refused with the same words; what was marched is marched, and states its error
- * or says that it is not known, as it was judged. */
+ * or says that it is not known, as it was found. */
 static void repeat(const struct br_extreme_case *one, const struct br_extreme_verdict *verdict)
 {
     static struct cli_outcome out;

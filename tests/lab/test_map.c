@@ -68,7 +68,7 @@ static void check_sound(const struct named *sound, size_t count, bool quick)
  * an earlier one was rounded to (240, 503, 681), by the bound of a contact that is a million times
  * stiffer than the rod (690, 1136), by what elimination leaves (502, 852), by a scheme that began
  * anew where a contact without stiffness opened (102). Seed 7: by a
- * judge whose iterations add up (91). Seed 4: by a residual
+ * reference whose iterations add up (91). Seed 4: by a residual
  * where load and velocity cross zero at once (94), by steps that add many velocities (1851). By a
  * friction force that obeys the march's bound, which is that of the nodes to round-off (3, 512; 5,
  * 241; 10, 151); by what a light beam's velocities are rounded to (8, 811). By a
@@ -123,7 +123,7 @@ TEST(test_boast)
     AT_MOST(0.5 * known, wrong);
 }
 
-/* Classes by hand: who states less than is true is wrong, whoever judges; 5 % where nothing is
+/* Classes by hand: who states less than is true is wrong, whoever checks; 5 % where nothing is
  * stated. */
 TEST(test_classes_by_hand)
 {

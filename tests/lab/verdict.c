@@ -26,7 +26,7 @@ struct trial {
     struct br_track_samples samples;
     struct br_track *own, *other;
     struct br_prediction prediction;
-    double reference_error[2]; /* of the judging march, by br_field_kind, relative; 0: not known */
+    double reference_error[2]; /* of the other march, by br_field_kind, relative; 0: not known */
     double beyond;             /* an error over the stated one, if it is larger; otherwise 0 */
     struct br_warnings warnings;
     bool done;
