@@ -34,11 +34,11 @@ struct br_scene_key {
     const char *name;
     enum br_key_kind kind;
     enum br_need need;
-    unsigned laws; /* of friction that have this key, a bit each: 1u << BR_COULOMB; 0: any */
-    const char *unit;         /* one unit of its dimension; "": none */
-    size_t offset;            /* in struct br_scene; of a section: of its flag `modelled` */
-    const char *help;         /* what is expected */
-    const char *example;      /* a value for templates; the required keys together make a scene */
+    unsigned laws;       /* of friction that have this key, a bit each: 1u << BR_COULOMB; 0: any */
+    const char *unit;    /* one unit of its dimension; "": none */
+    size_t offset;       /* in struct br_scene; of a section: of its flag `modelled` */
+    const char *help;    /* what is expected */
+    const char *example; /* a value for templates; the required keys together make a scene */
 };
 
 enum { BR_MOST_SCENE_KEYS = 64 };
