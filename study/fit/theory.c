@@ -92,33 +92,22 @@ static bool starts_at_rest(const struct br_scene_field *d)
 
 /* ---- what a norm measures ---- */
 
-static bool at_tip(enum br_measure measure)
-{
-    switch (measure) {
-    case BR_TIP:
-        return true;
-    case BR_DISPLACEMENT:
-    case BR_VELOCITY:
-    case BR_STRAIN_RATE:
-    case BR_MEASURES:
-        break;
-    }
-    return false;
-}
+/* A rate has a derivative in time, which starts with one order less. */
+enum { IS_RATE = 1, AT_TIP = 2 };
 
-/* Whether it has a derivative in time, which starts with one order less. */
-static bool is_rate(enum br_measure measure)
+static int what_is(enum br_measure measure)
 {
     switch (measure) {
-    case BR_VELOCITY:
-    case BR_STRAIN_RATE:
-        return true;
     case BR_DISPLACEMENT:
-    case BR_TIP:
     case BR_MEASURES:
         break;
+    case BR_VELOCITY:
+    case BR_STRAIN_RATE:
+        return IS_RATE;
+    case BR_TIP:
+        return AT_TIP;
     }
-    return false;
+    return 0;
 }
 
 /* ---- in h ---- */
@@ -134,7 +123,7 @@ static struct br_theory of_elements(const struct br_study *s, enum br_field_kind
                   is_smooth(&d->velocity, BR_X, s->n[0], scene);
     for (size_t i = 0; i < BR_LOAD_TERMS && smooth; i++)
         smooth = is_smooth(&d->load.term[i].space, BR_X, s->n[0], scene);
-    const bool tip = at_tip(s->norm->level);
+    const bool tip = what_is(s->norm->level) & AT_TIP;
     const double order =
         tip ? 2 * (degree + 1 - derivatives)
             : degree + 1 - (br_norm_needs(s->norm, BR_STRAIN_RATE) ? derivatives : 0);
@@ -222,7 +211,7 @@ static struct br_theory in_k(const struct br_study *s, enum br_part part)
                      (br_part_has(part, BR_AXIAL) || br_friction_follows_contact(&scene->friction)),
                contact = scene->contact.modelled && rod,
                lags = contact && !s->method.contact->at_new_step;
-    const int zeros = (is_rate(s->norm->level) ? 1 : 0) + (lags ? 1 : order) - 1;
+    const int zeros = (what_is(s->norm->level) & IS_RATE) + (lags ? 1 : order) - 1;
     const char *why = rod ? what_spoils(scene, BR_AXIAL, zeros) : NULL;
     if (s->method.scheme->adaptive)
         why = "the scheme chooses its own steps";
