@@ -70,11 +70,16 @@ def close(found, expected, tolerance=1e-9):
         raise AssertionError(f"found {found}, expected {expected}")
 
 
+statuses = set()  # of the calls that failed
+
+
 def refused(text, call, kind=(br.BadInput, TypeError, KeyError)):
     try:
         call()
     except kind as error:
         assert text in str(error), (text, str(error))
+        if isinstance(error, br.Error) and error.status is not None:
+            statuses.add((type(error), error.status))
     else:
         raise AssertionError(f"not refused: {text}")
 
@@ -333,3 +338,4 @@ else:
     check_window()
     check_plot(Axes)
     check_refusals()
+    assert statuses == {(br.BadInput, 1)}, statuses  # as beamrate.h has it, and no other number

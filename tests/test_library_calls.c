@@ -173,7 +173,12 @@ TEST(orders_of_a_table)
     const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
     ENDS(beamrate_orders_check_quantity(&check, orders, 2, &expected, 1, &failure),
          BEAMRATE_BAD_INPUT, "quantity: found 2, expected less than 2");
-    beamrate_orders_free(orders);
+    WORKS(beamrate_orders_check_quantity(&check, orders, 1, &expected, 1, &failure));
+    beamrate_orders_free(orders); /* verdicts outlive their orders, names and all */
+    beamrate_check_case(check, 0, &c);
+    assert_string_equal(c.measure, "v");
+    assert_int_equal(c.verdict, BEAMRATE_FAIL);
+    beamrate_check_free(check);
     static const struct {
         struct beamrate_table table;
         const char *message;

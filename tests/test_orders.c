@@ -955,6 +955,11 @@ TEST(test_grammar)
     assert_string_equal(e[2].quantity, "drag x");
     assert_int_equal(e[2].axis, BR_AXIS_TIME);
     free(e);
+    e = NULL; /* names that begin alike are two */
+    count = 0;
+    MUST(br_expectations_read("l2: h 2 +- .1; l2v: h 1 +- .1; l: h 1 +- .1", 0, &e, &count, &err));
+    assert_int_equal(count, 3);
+    free(e);
     refuse_expectation("", "expected an order, as in 'l2: h 2 +- 0.1'");
     refuse_expectation("l2", "found 'l2', expected an error's name and ':'");
     refuse_expectation(": h 2 +- .1", "expected an error's name");
@@ -1040,6 +1045,15 @@ static int verdict_of(const char *table, const char *values, const char *expecte
     br_check_clear(&check);
     free(e);
     return verdict;
+}
+
+/* An error that is just where the errors are expected to stop stops there. */
+TEST(test_down_to)
+{
+    static const char table[] = "n,l2\n10,1e-2\n20,2.5e-3\n40,6.25e-4\n80,1.5625e-4\n160,1e-4\n";
+    char why[768];
+    assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 1e-4", why), BR_PASS);
+    assert_int_not_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 0.99e-4", why), BR_PASS);
 }
 
 /* Rates from 1.9997 to 2.0000 are no reason to refine where 3 is expected. */

@@ -327,8 +327,11 @@ TEST(test_forecast)
     MUST(br_trade_estimate(t, &err));
     assert_int_equal(t->forecast.planned, t->count);
     assert_int_equal(t->forecast.left, 0);
-    for (size_t i = 0; i + 2 < 4 * 3; i += 3) /* two methods on two meshes */
+    for (size_t i = 0; i + 2 < 4 * 3; i += 3) { /* two methods on two meshes */
         assert_true(t->trial[i + 2].estimated > 2 * t->trial[i].estimated);
+        CLOSE(br_trial_work(&scene, &t->trial[i + 2]), 1000 * br_trial_work(&scene, &t->trial[i]),
+              1e-12);
+    }
     t->request.seconds = 0.3 * t->forecast.seconds;
     MUST(br_trade_estimate(t, &err));
     assert_true(t->forecast.left > 0 && t->forecast.planned > 1);

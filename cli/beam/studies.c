@@ -155,10 +155,10 @@ void br_studies_clear(struct br_studies *r)
 
 /* ---- before the marches ---- */
 
-void br_studies_estimate_cost(const struct br_studies *r, struct br_cost_estimate *work)
+void br_studies_estimate_cost(const struct br_studies *r, struct br_costs *work)
 {
     for (size_t h = 0; h < r->cases; h++)
-        br_cost_estimate_add_study(work, study_of(r, h, 0));
+        br_costs_add_study(work, study_of(r, h, 0));
 }
 
 enum br_status br_studies_check_memory(const struct br_studies *r, struct br_error *err)

@@ -96,15 +96,15 @@ static enum br_status check_required(const struct br_scene_reader *r, const char
         const bool needed = k->need == BR_REQUIRED || k->need == BR_OR_RATIO;
         if (strcmp(k->section, section) != 0 || br_scene_line(r, k) || !needed)
             continue;
-        if (k->law != BR_FRICTIONLESS && k->law != r->scene->friction.law)
+        if (k->laws && !(k->laws & 1u << r->scene->friction.law))
             continue;
         return br_scene_refuse(r, line, k->name, "missing%s%s, expected %s%s%s",
                                *section ? " in " : "", section, k->help, *k->unit ? ", in " : "",
                                k->unit);
     }
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (br_scene_line(r, k) && strcmp(k->section, section) == 0 && k->law != BR_FRICTIONLESS &&
-            k->law != r->scene->friction.law)
+        if (br_scene_line(r, k) && strcmp(k->section, section) == 0 && k->laws &&
+            !(k->laws & 1u << r->scene->friction.law))
             return br_scene_refuse(r, line, k->name, "does not belong to this friction law: %s",
                                    k->help);
     return BR_OK;

@@ -453,7 +453,7 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
         return;
     const bool tresca = c->law == BR_TRESCA;
     br_append(text, BR_EXTREME_TEXT, "\nfriction:\n  law: %s\n  %s: %.17g %s\n",
-              br_friction_law_names[c->law], tresca ? "bound" : "coefficient", c->friction,
+              br_friction_models[c->law].name, tresca ? "bound" : "coefficient", c->friction,
               tresca ? "N" : "N/m");
     if (c->regularisation > 0)
         br_append(text, BR_EXTREME_TEXT, "  regularisation: %.17g m/s\n", c->regularisation);
