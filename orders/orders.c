@@ -156,6 +156,35 @@ static bool is_fine(const struct br_orders *o, const struct br_quantity_orders *
     return line + 2 >= of->lines || of->line[line + 2].axis != of->line[line].axis;
 }
 
+static double width_of(const struct br_estimate *order)
+{
+    return order->high - order->low;
+}
+
+/* Errors over degrees that are few, or have few digits, may fit powers of 1/(degree + 1) as well as
+ * exponential convergence, which is one power of e^-degree. */
+static enum br_status observe_degrees(struct br_case *c, struct br_error *err)
+{
+    struct br_case by = *c;
+    bool all = true;
+    by.point = br_allocate(c->points + 1, sizeof *by.point);
+    if (!by.point)
+        return br_no_memory(err, "the orders");
+    memcpy(by.point, c->point, c->points * sizeof *by.point);
+    for (size_t i = 0; i < by.points; i++)
+        by.point[i].z = exp(1 - 1 / by.point[i].z);
+    const bool failed = br_case_observe(c, BR_ORDERS_LEAST, err) ||
+                        (isnan(c->factor.value) && br_case_observe(&by, BR_ORDERS_LEAST, err));
+    for (size_t i = 0; i < by.points; i++)
+        all &= !by.point[i].lost;
+    if (!failed && isnan(c->factor.value) && all && !by.law && by.order.low > 0 &&
+        width_of(&by.order) <= by.order.value)
+        c->factor =
+            (struct br_estimate){exp(by.order.value), exp(by.order.low), exp(by.order.high)};
+    free(by.point);
+    return failed ? err->status : BR_OK;
+}
+
 /* Finds the orders of all lines, which leaves out the errors that do not show them. On a grid,
  * errors may stay along one axis since the error of the other axis is larger; where the joint fit
  * describes all errors, none is left out, and of powers no line is needed then. */
@@ -167,9 +196,11 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
         struct br_case *c = &of->line[l].observed;
         if (stopped(o->numbers, err))
             return err->status;
-        if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
-            status = br_case_observe(c, BR_ORDERS_LEAST, err);
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
+        if (size->is_degree)
+            status = observe_degrees(c, err);
+        else if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
+            status = br_case_observe(c, BR_ORDERS_LEAST, err);
         if (!status && (is_scatter(&of->line[l]) || size->is_degree))
             br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);
         else if (!status && !leave_out)
@@ -256,11 +287,6 @@ static struct br_orders_answer answer_of_grid(const struct br_orders *o,
 }
 
 const char br_orders_uneven[] = "the errors do not fall, or fall slowly and unevenly";
-
-static double width_of(const struct br_estimate *order)
-{
-    return order->high - order->low;
-}
 
 /* Whether each error that the order of a line rests on is smaller than the one before it; where
  * there is no order, whether all are. */

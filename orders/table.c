@@ -425,12 +425,19 @@ static enum br_status take_all(struct source *s, struct br_error *err)
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
                              struct br_error *err)
 {
-    struct source s = {.request = q, .numbers = numbers};
+    struct br_orders_request own = *q; /* its lists get the case of the headings */
+    struct source s = {.request = &own, .numbers = numbers};
     err->status = BR_OK;
-    enum br_status status =
-        br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
+    own.errors = q->errors ? strdup(q->errors) : NULL;
+    own.values = q->values ? strdup(q->values) : NULL;
+    enum br_status status = (q->errors && !own.errors) || (q->values && !own.values)
+                                ? br_no_memory(err, "the table")
+                                : br_fields_read(q->table, br_orders_path(q), q->observer,
+                                                 &s.fields, err);
     if (!status)
         status = take_all(&s, err);
+    free(own.errors);
+    free(own.values);
     free(s.cell);
     free(s.text);
     br_roles_clear(&s.roles);

@@ -86,6 +86,14 @@ static bool say_exponential(struct br_document *d, const struct br_orders *o,
     return true;
 }
 
+static bool are_zero(const struct br_case *c)
+{
+    bool zero = c->points > 0;
+    for (size_t i = 0; i < c->points; i++)
+        zero = zero && c->point[i].error == 0;
+    return zero;
+}
+
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -107,6 +115,8 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         br_put_more(d, " (not determined)");
     else if (!none)
         say_meaning(d, o, of, axis, order->value);
+    else if (line && are_zero(&line->observed))
+        br_put_more(d, value ? ", since all values are the same" : ", since all errors are 0");
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))

@@ -185,7 +185,8 @@ static bool grows_in(const struct view *v, double dimension)
 {
     const bool dofs = has_name(v, "dofs");
     return grows_by(v, 0, pow(2, dimension), dofs) ||
-           (dimension > 1 && grows_by(v, 0, pow(3, dimension), dofs));
+           (dimension > 1 && (grows_by(v, 0, pow(3, dimension), dofs) ||
+                              grows_by(v, 0, pow(1.5, dimension), false)));
 }
 
 /* Whether the heading is a usual name of any size. */
@@ -207,6 +208,14 @@ static double is_two_dimensional(const struct view *v)
 {
     return has_name(v, "dofs") && v->candidate->size.dimension == 2 && !grows_in(v, 1) &&
            !grows_in(v, 2) && !grows_in(v, 3);
+}
+
+/* Whether a line has more cells than one is cut into. */
+static double is_too_long(const struct view *v)
+{
+    const double most = 1e5;
+    return v->candidate->size.states->is_volume && v->candidate->size.dimension == 1 &&
+           !(v->roles->wishes->dimension > 0) && own(v)->most > most;
 }
 
 /* Whether all sizes fall by one factor. */
@@ -414,6 +423,7 @@ static const struct {
     {contradicts, -4, "it gives other rates than the table"},
     {grows, 2, "it grows as a number of this kind does where h halves"},
     {is_two_dimensional, 1.5, "most meshes with unknowns are 2-D"},
+    {is_too_long, -3, "few meshes are 1-D and have so many cells"},
     {halves, 0.75, "its sizes halve"},
     {counts_up, -4, "levels count by one"},
     {has_a_second, 3, "another column states the same sizes"},

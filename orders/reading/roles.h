@@ -83,10 +83,10 @@ struct br_size {
 
 /* How a table is read by hand; texts may be NULL. */
 struct br_table_wishes {
-    const char *path;    /* for messages */
-    const char *columns; /* "dx=h,3=l2" */
-    const char *where;   /* "method=P1" */
-    const char *errors, *values;
+    const char *path;      /* for messages */
+    const char *columns;   /* "dx=h,3=l2" */
+    const char *where;     /* "method=P1" */
+    char *errors, *values; /* lists; names of one column but for their case get its case */
     double dimension; /* 0: nobody stated it */
 };
 
