@@ -332,6 +332,8 @@ static enum br_status state(struct source *s, struct br_error *err)
         say(s, "; of rows of one size the mean");
     if (*r->assumed && !(n->assumed && !strstr(r->assumed, "; ")))
         say(s, "; %s", r->assumed);
+    if (r->of_rates)
+        say(s, "; %s", r->of_rates);
     say_left(s);
     n->taken = keep(s);
     if (*r->assumed) {
@@ -430,10 +432,10 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     err->status = BR_OK;
     own.errors = q->errors ? strdup(q->errors) : NULL;
     own.values = q->values ? strdup(q->values) : NULL;
-    enum br_status status = (q->errors && !own.errors) || (q->values && !own.values)
-                                ? br_no_memory(err, "the table")
-                                : br_fields_read(q->table, br_orders_path(q), q->observer,
-                                                 &s.fields, err);
+    enum br_status status =
+        (q->errors && !own.errors) || (q->values && !own.values)
+            ? br_no_memory(err, "the table")
+            : br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
     if (!status)
         status = take_all(&s, err);
     free(own.errors);

@@ -106,6 +106,14 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         return; /* of three values, whose p is said */
     if (none && line && say_exponential(d, o, line, first))
         return;
+    if (none && line && !value && o->numbers->column[axis]->is_degree &&
+        !are_zero(&line->observed)) {
+        br_put_more(d,
+                    "%sexponential convergence not measurable, and errors over degrees have no "
+                    "order",
+                    separator(first));
+        return;
+    }
     const bool alone = !none && (!o->numbers->column[!axis] || o->tied);
     br_put_more(d, "%sorder %s%s%s%s%s%s", separator(first), alone ? "" : "in ",
                 alone ? "" : br_axis_letters[axis], alone ? "" : " ",

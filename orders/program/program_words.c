@@ -214,13 +214,13 @@ static enum br_status find_program(const char *here, const char *name, char **pr
                             : "; a file here needs ./ before it");
 }
 
-/* The script that an interpreter is to run ("python3 x.py"), where no file has its name; NULL: there
- * is none. Options before it, and whatever is no plain name of a file, are left alone. */
+/* The script that an interpreter is to run ("python3 x.py"), where no file has its name; NULL:
+ * there is none. Options before it, and whatever is no plain name of a file, are left alone. */
 static const char *lost_script(char *const *word)
 {
-    static const char *const interpreters[] = {"python", "julia", "Rscript", "octave", "perl",
-                                               "ruby",   "sh",    "bash",    "lua",    "node",
-                                               "php",    "FreeFem++"};
+    static const char *const interpreters[] = {"python", "julia", "Rscript", "octave",
+                                               "perl",   "ruby",  "sh",      "bash",
+                                               "lua",    "node",  "php",     "FreeFem++"};
     bool follows = false;
     for (; *word; word++) {
         const char *slash = strrchr(*word, '/'), *name = slash ? slash + 1 : *word;

@@ -441,6 +441,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *c, con
     for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++)
         c->odds += of_sizes[i].log_odds * of_sizes[i].holds(&v);
     c->agrees_with_rates = reproduces(&v) > 0;
+    c->misses_rates = v.rates.columns && !v.rates.all;
     c->contradicts_rates = contradicts(&v) > 0;
     c->wrong_way = grow_all(&v) > 0;
 }

@@ -124,6 +124,7 @@ struct br_roles {
     bool means;             /* of rows of one size their mean counts */
     char assumed[400];      /* what is assumed, and what settles it; "": nothing */
     bool assumed_dimension;
+    const char *of_rates; /* that the table's rates are not those of the sizes; static; NULL */
 };
 
 /* Finds the roles (out; clear them even after a failure). Fails with BR_BAD_INPUT where a column
@@ -192,7 +193,7 @@ struct br_candidate {
     struct br_size size;
     double *log_z; /* rows; NaN: none */
     double odds;
-    bool agrees_with_rates, contradicts_rates, wrong_way;
+    bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way;
 };
 
 /* Adds up the evidence for a candidate. sorted: rows from coarse to fine, line after line, and
