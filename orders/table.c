@@ -286,7 +286,9 @@ static void list_left(struct source *s)
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
-        say(s, "line %zu '%s'", f->left[i].line, f->left[i].text);
+        if (f->left[i].line) /* else of a source without lines */
+            say(s, "line %zu ", f->left[i].line);
+        say(s, "'%s'", f->left[i].text);
         leave(s, f->left[i].why);
     }
 }
@@ -330,7 +332,8 @@ static enum br_status state(struct source *s, struct br_error *err)
     say_columns(s, BR_ROLE_CASE, "; a study for each of: ");
     if (r->means)
         say(s, "; of rows of one size the mean");
-    if (*r->assumed && !(n->assumed && !strstr(r->assumed, "; ")))
+    if (*r->assumed &&
+        (!n->assumed || strstr(r->assumed, "; ") || strstr(r->assumed, "other rates")))
         say(s, "; %s", r->assumed);
     if (r->of_rates)
         say(s, "; %s", r->of_rates);
@@ -389,6 +392,11 @@ static enum br_status refuse_values(const struct source *s, struct br_error *err
     char name[200], item[210] = "NAME", shell[240], where[80] = "", text[32], advice[400];
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
+        if (c->kind == BR_KIND_LOGARITHM && c->role == BR_ROLE_ASIDE) {
+            snprintf(advice, sizeof advice, "%s has logarithms: give the numbers themselves",
+                     quoted(c->label, name));
+            return br_roles_refuse(&s->roles, "found no column of errors", advice, err);
+        }
         if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
             found = c;
     }

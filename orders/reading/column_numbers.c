@@ -55,16 +55,30 @@ static void find_rounding(struct br_roles *r, size_t column)
     }
 }
 
+/* Whether fields of a column give powers of ten in brackets, "1.2(-3)": then "1.2(3)" has one, and
+ * no deviation. */
+static bool has_powers(const struct br_roles *r, size_t column)
+{
+    struct br_field_number n;
+    for (size_t i = 0; i < r->rows; i++)
+        if (br_role_field(r, i, column) &&
+            br_field_read(br_role_field(r, i, column), r->fields->mark, &n) && !isnan(n.of_power) &&
+            isnan(n.deviation))
+            return true;
+    return false;
+}
+
 /* Reads the numbers of a column in the rows that are not left aside. */
 void br_roles_read_column(struct br_roles *r, size_t column)
 {
     struct br_role_column *c = &r->column[column];
     c->numbers = c->words = c->gaps = 0;
+    const bool powers = has_powers(r, column);
     c->is_whole = true;
     c->least = INFINITY;
     c->most = -INFINITY;
     for (size_t i = 0; i < r->rows; i++) {
-        struct br_field_number n = {NAN, NAN};
+        struct br_field_number n = {NAN, NAN, NAN};
         const char *text = br_role_field(r, i, column);
         c->number[i] = c->deviation[i] = NAN;
         if (r->dropped[i] || br_field_is_missing(text))
@@ -78,6 +92,8 @@ void br_roles_read_column(struct br_roles *r, size_t column)
             c->words++;
             continue;
         }
+        if (powers && !isnan(n.of_power))
+            n = (struct br_field_number){n.of_power, NAN, NAN};
         c->number[i] = n.value;
         c->deviation[i] = n.deviation;
         c->numbers++;

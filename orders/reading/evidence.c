@@ -55,7 +55,8 @@ static bool may_have_errors(const struct view *v, size_t i)
     const struct br_role_column *c = &v->roles->column[i];
     return i != v->candidate->size.column && c->role != BR_ROLE_CASE && c->numbers > c->words &&
            c->numbers >= 2 && c->most > 0 && c->kind != BR_KIND_RATE && c->kind != BR_KIND_COST &&
-           c->kind != BR_KIND_FACTOR && c->kind != BR_KIND_DEVIATION;
+           c->kind != BR_KIND_FACTOR && c->kind != BR_KIND_DEVIATION &&
+           c->kind != BR_KIND_LOGARITHM;
 }
 
 static double of_digit(const struct br_role_column *c, size_t row)

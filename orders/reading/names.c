@@ -384,6 +384,10 @@ enum br_kind br_kind_of(const char *name)
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
     }
+    at = name;
+    next_word(&at, word);
+    if ((!found || found == BR_KIND_ERROR) && lists(" log log2 log10 ln lg ", word))
+        return BR_KIND_LOGARITHM;
     return found                                            ? found
            : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
            : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR

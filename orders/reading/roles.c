@@ -162,6 +162,7 @@ static const char *why_aside(const struct br_roles *r, size_t i)
         [BR_KIND_DEVIATION] = "deviations of no column",
         [BR_KIND_DEGREE] = "a degree",
         [BR_KIND_REPEAT] = "the number of a run",
+        [BR_KIND_LOGARITHM] = "logarithms: the numbers themselves are expected",
     };
     const struct br_role_column *c = &r->column[i];
     if (c->why)

@@ -30,6 +30,7 @@ enum br_kind {
     BR_KIND_DEVIATION,
     BR_KIND_DEGREE,
     BR_KIND_REPEAT, /* the number of a repeated run, a seed */
+    BR_KIND_LOGARITHM,
 };
 enum br_kind br_kind_of(const char *name);
 
@@ -87,7 +88,7 @@ struct br_table_wishes {
     const char *columns;   /* "dx=h,3=l2" */
     const char *where;     /* "method=P1" */
     char *errors, *values; /* lists; names of one column but for their case get its case */
-    double dimension; /* 0: nobody stated it */
+    double dimension;      /* 0: nobody stated it */
 };
 
 /* From here on a name is a usual one: of one meaning, or of any. */
