@@ -521,6 +521,14 @@ static void set_lines(struct br_roles *r, enum br_axis axis)
     }
 }
 
+static bool has_degrees(const struct br_roles *r)
+{
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].role == BR_ROLE_DEGREE && r->column[i].kind == BR_KIND_DEGREE)
+            return true;
+    return false;
+}
+
 enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
 {
     bool time_gives_rates = false;
@@ -533,6 +541,8 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
         const struct br_role_column *c = best ? &r->column[best->size.column] : NULL;
         if (best && i == BR_AXIS_SPACE && r->size[BR_AXIS_TIME].states && !c->by_hand &&
             (br_odds(c, best->size.states) < 2 || (best->contradicts_rates && time_gives_rates)))
+            best = NULL;
+        if (best && best->odds < least_odds && has_degrees(r)) /* they are the axis */
             best = NULL;
         if (best && choose(&t, best, err))
             return err->status;
