@@ -222,6 +222,12 @@ static bool is_unit_of(enum br_axis axis, const char *unit)
                  unit);
 }
 
+bool br_is_unit(const char *text)
+{
+    return is_unit_of(BR_AXIS_SPACE, text) || is_unit_of(BR_AXIS_TIME, text) ||
+           lists(" N kN Pa kPa MPa GPa K J W kg rad Hz ", text);
+}
+
 /* "grid_spacing_m": without the unit of length or time at its end. False: it has none. */
 static bool without_unit(const char *name, char text[LONGEST])
 {

@@ -131,6 +131,9 @@ static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_DEGREE)
             return take_degree(r, i, err);
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].named >= BR_USUAL_NAME && br_roles_check_words(r, i, err))
+            return err->status;
     if (!may_halve(r))
         return br_roles_refuse(r, "found no column of a resolution", NULL, err);
     if (try_halves(r, &c, err))

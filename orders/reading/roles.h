@@ -47,6 +47,9 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
  * called a size, and of nothing else. NULL: there is none, and the name may have changed. */
 char *br_unit_behind_slash(char *name);
 
+/* Whether a text is a usual unit. */
+bool br_is_unit(const char *text);
+
 /* Whether a name is that of a number of samples, which is no number of elements. */
 bool br_is_samples(const char *name);
 
@@ -63,6 +66,7 @@ struct br_role_column {
     double named;                /* the greatest of them */
     double *number, *deviation;  /* rows; NaN: none */
     double *rounding;            /* half a unit of the last digit, relative */
+    const char *unit_of_fields;  /* that each of its fields has; NULL */
     size_t numbers, words, gaps; /* how many fields are one or the other; gaps: "diverged" */
     const char *gap;             /* the last */
     bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
