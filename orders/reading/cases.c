@@ -96,15 +96,15 @@ static bool a_size_repeats(const struct br_roles *r, size_t but)
 /* The step by which small whole numbers count up; 0: there is none. */
 static int step_of(const struct br_roles *r, const struct br_role_column *c)
 {
-    bool seen[32] = {false};
+    bool found[32] = {false};
     int step = 0;
     if (!c->is_whole || c->words || c->least < 0 || c->most > 31)
         return 0;
     for (size_t i = 0; i < r->rows; i++)
         if (!isnan(c->number[i]))
-            seen[(int)c->number[i]] = true;
+            found[(int)c->number[i]] = true;
     for (int i = (int)c->least + 1, before = i - 1; i <= (int)c->most; i++) {
-        if (!seen[i])
+        if (!found[i])
             continue;
         if (step && i - before != step)
             return 0;
