@@ -161,26 +161,44 @@ static double width_of(const struct br_estimate *order)
     return order->high - order->low;
 }
 
-/* Errors over degrees that are few, or have few digits, may fit powers of 1/(degree + 1) as well as
- * exponential convergence, which is one power of e^-degree. */
-static enum br_status observe_degrees(struct br_case *c, struct br_error *err)
+/* Takes exponential convergence from the same errors, as a power of e^-degree, if that is all that
+ * they show. */
+static void take_exponential(struct br_case *c, const struct br_case *by)
+{
+    bool all = !by->law && by->order.low > 0 && width_of(&by->order) <= by->order.value;
+    for (size_t i = 0; i < by->points; i++)
+        all &= !by->point[i].lost;
+    if (!all)
+        return;
+    c->factor = (struct br_estimate){exp(by->order.value), exp(by->order.low), exp(by->order.high)};
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].flag = by->point[i].flag;
+        c->point[i].used = by->point[i].used;
+        c->point[i].lost = false;
+    }
+    c->used = by->used;
+    c->order = (struct br_estimate){NAN, NAN, NAN};
+    c->low99 = c->high99 = NAN;
+    c->law = NULL;
+    snprintf(c->note, sizeof c->note, "%s", by->note);
+}
+
+enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
+                                 struct br_case *c, struct br_error *err)
 {
     struct br_case by = *c;
-    bool all = true;
+    if (!size->is_degree)
+        return br_case_observe(c, least, err);
     by.point = br_allocate(c->points + 1, sizeof *by.point);
     if (!by.point)
         return br_no_memory(err, "the orders");
     memcpy(by.point, c->point, c->points * sizeof *by.point);
     for (size_t i = 0; i < by.points; i++)
         by.point[i].z = exp(1 - 1 / by.point[i].z);
-    const bool failed = br_case_observe(c, BR_ORDERS_LEAST, err) ||
-                        (isnan(c->factor.value) && br_case_observe(&by, BR_ORDERS_LEAST, err));
-    for (size_t i = 0; i < by.points; i++)
-        all &= !by.point[i].lost;
-    if (!failed && isnan(c->factor.value) && all && !by.law && by.order.low > 0 &&
-        width_of(&by.order) <= by.order.value)
-        c->factor =
-            (struct br_estimate){exp(by.order.value), exp(by.order.low), exp(by.order.high)};
+    const bool failed = br_case_observe(c, least, err) ||
+                        (isnan(c->factor.value) && br_case_observe(&by, least, err));
+    if (!failed && isnan(c->factor.value))
+        take_exponential(c, &by);
     free(by.point);
     return failed ? err->status : BR_OK;
 }
@@ -197,10 +215,8 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
         if (stopped(o->numbers, err))
             return err->status;
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
-        if (size->is_degree)
-            status = observe_degrees(c, err);
-        else if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
-            status = br_case_observe(c, BR_ORDERS_LEAST, err);
+        if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
+            status = br_orders_observe(size, BR_ORDERS_LEAST, c, err);
         if (!status && (is_scatter(&of->line[l]) || size->is_degree))
             br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);
         else if (!status && !leave_out)
