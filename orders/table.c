@@ -267,13 +267,18 @@ static void list_left(struct source *s)
     char text[32];
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
-    s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
+    s->numbers->left = br_store_take(&s->numbers->store, 3 * r->columns + r->rows + f->lefts + 1,
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
             say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
+        }
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].rates_in_brackets) {
+            say(s, "%s: the numbers in brackets", r->column[i].label);
+            leave(s, "rates");
         }
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].gaps) {

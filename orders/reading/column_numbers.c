@@ -50,9 +50,12 @@ static bool read_field(const struct br_roles *r, size_t column, const char *text
     char plain[LONGEST], *to = plain;
     if (r->fields->is_words[column])
         return false;
-    if (br_field_read(text, r->fields->mark, n))
+    const char *bracket = c->rates_in_brackets ? strrchr(text, '(') : NULL;
+    if (!bracket && br_field_read(text, r->fields->mark, n))
         return true;
-    const size_t length = strlen(text) - (c->unit_of_fields ? strlen(c->unit_of_fields) : 0);
+    const size_t length = bracket
+                              ? (size_t)(bracket - text)
+                              : strlen(text) - (c->unit_of_fields ? strlen(c->unit_of_fields) : 0);
     const char *const end = text + length;
     for (const char *at = text; at < end && length < LONGEST; at++)
         if (!(at > text && isdigit((unsigned char)at[-1]) && strchr(" '", *at) &&

@@ -156,6 +156,8 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
             strcpy(name, text); /* "L2(u)", "L2(p)": no units */
             c->unit = NULL;
         }
+    c->rates_in_brackets = c->unit && br_kind_of(c->unit) == BR_KIND_RATE;
+    c->unit = c->rates_in_brackets ? NULL : c->unit;
     c->kind = br_kind_of(c->name);
     return BR_OK;
 }

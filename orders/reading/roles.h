@@ -66,6 +66,7 @@ struct br_role_column {
     double named;                /* the greatest of them */
     double *number, *deviation;  /* rows; NaN: none */
     double *rounding;            /* half a unit of the last digit, relative */
+    bool rates_in_brackets;      /* its heading says so: "L2 error (rate)" */
     const char *unit_of_fields;  /* that each of its fields has; NULL */
     size_t numbers, words, gaps; /* how many fields are one or the other; gaps: "diverged" */
     const char *gap;             /* the last */
