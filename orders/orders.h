@@ -197,6 +197,11 @@ enum br_status br_orders_add_differences(const struct br_orders *orders,
                                          struct br_quantity_orders *of, enum br_axis axis,
                                          struct br_error *err);
 
+/* br_case_observe of a line over sizes of this column. Errors over degrees that are few, or have few
+ * digits, may fit powers of 1/(degree + 1) as well as exponential convergence. */
+enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
+                                 struct br_case *c, struct br_error *err);
+
 /* Whether a row has an error that a joint fit can take; half a unit of its last digit, 0 where it
  * was not printed. */
 bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row);

@@ -269,13 +269,18 @@ static void list_left(struct source *s)
     char text[32];
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
-    s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
+    s->numbers->left = br_store_take(&s->numbers->store, 3 * r->columns + r->rows + f->lefts + 1,
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
             say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
+        }
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].rates_in_brackets) {
+            say(s, "%s: the numbers in brackets", r->column[i].label);
+            leave(s, "rates");
         }
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].gaps) {
@@ -288,7 +293,9 @@ static void list_left(struct source *s)
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
-        say(s, "line %zu '%s'", f->left[i].line, f->left[i].text);
+        if (f->left[i].line) /* else of a source without lines */
+            say(s, "line %zu ", f->left[i].line);
+        say(s, "'%s'", f->left[i].text);
         leave(s, f->left[i].why);
     }
 }
@@ -332,8 +339,11 @@ static enum br_status state(struct source *s, struct br_error *err)
     say_columns(s, BR_ROLE_CASE, "; a study for each of: ");
     if (r->means)
         say(s, "; of rows of one size the mean");
-    if (*r->assumed && !(n->assumed && !strstr(r->assumed, "; ")))
+    if (*r->assumed &&
+        (!n->assumed || strstr(r->assumed, "; ") || strstr(r->assumed, "other rates")))
         say(s, "; %s", r->assumed);
+    if (r->of_rates)
+        say(s, "; %s", r->of_rates);
     say_left(s);
     n->taken = keep(s);
     if (*r->assumed) {
@@ -389,6 +399,11 @@ static enum br_status refuse_values(const struct source *s, struct br_error *err
     char name[200], item[210] = "NAME", shell[240], where[80] = "", text[32], advice[400];
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
+        if (c->kind == BR_KIND_LOGARITHM && c->role == BR_ROLE_ASIDE) {
+            snprintf(advice, sizeof advice, "%s has logarithms: give the numbers themselves",
+                     quoted(c->label, name));
+            return br_roles_refuse(&s->roles, "found no column of errors", advice, err);
+        }
         if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
             found = c;
     }
@@ -427,12 +442,19 @@ static enum br_status take_all(struct source *s, struct br_error *err)
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
                              struct br_error *err)
 {
-    struct source s = {.request = q, .numbers = numbers};
+    struct br_orders_request own = *q; /* its lists get the case of the headings */
+    struct source s = {.request = &own, .numbers = numbers};
     err->status = BR_OK;
+    own.errors = q->errors ? strdup(q->errors) : NULL;
+    own.values = q->values ? strdup(q->values) : NULL;
     enum br_status status =
-        br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
+        (q->errors && !own.errors) || (q->values && !own.values)
+            ? br_no_memory(err, "the table")
+            : br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
     if (!status)
         status = take_all(&s, err);
+    free(own.errors);
+    free(own.values);
     free(s.cell);
     free(s.text);
     br_roles_clear(&s.roles);

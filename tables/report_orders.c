@@ -86,6 +86,14 @@ static bool say_exponential(struct br_document *d, const struct br_orders *o,
     return true;
 }
 
+static bool are_zero(const struct br_case *c)
+{
+    bool zero = c->points > 0;
+    for (size_t i = 0; i < c->points; i++)
+        zero = zero && c->point[i].error == 0;
+    return zero;
+}
+
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -98,6 +106,14 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         return; /* of three values, whose p is said */
     if (none && line && say_exponential(d, o, line, first))
         return;
+    if (none && line && !value && o->numbers->column[axis]->is_degree &&
+        !are_zero(&line->observed)) {
+        br_put_more(d,
+                    "%sexponential convergence not measurable, and errors over degrees have no "
+                    "order",
+                    separator(first));
+        return;
+    }
     const bool alone = !none && (!o->numbers->column[!axis] || o->tied);
     br_put_more(d, "%sorder %s%s%s%s%s%s", separator(first), alone ? "" : "in ",
                 alone ? "" : br_axis_letters[axis], alone ? "" : " ",
@@ -107,6 +123,8 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         br_put_more(d, " (not determined)");
     else if (!none)
         say_meaning(d, o, of, axis, order->value);
+    else if (line && are_zero(&line->observed))
+        br_put_more(d, value ? ", since all values are the same" : ", since all errors are 0");
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))

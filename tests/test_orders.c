@@ -434,6 +434,27 @@ TEST(test_degrees)
     assert_true(isnan(o.of[0].answer[BR_AXIS_SPACE].order.value));
     br_orders_clear(&o);
     br_numbers_clear(&n);
+    static const char *const few[] = {"p,e\n1,.1\n2,.01\n3,.001\n4,.0001\n",
+                                      "p,e\n2,.1\n4,.001\n6,.00001\n",
+                                      "p,e\n1,.1\n2,.01\n3,.001\n4,1e-4\n5,1e-5\n6,1e-6\n"};
+    for (size_t i = 0; i < sizeof few / sizeof *few; i++) {
+        char *text = strdup(few[i]);
+        struct br_orders_request r = {.path = q.path, .table = text};
+        MUST(br_orders_read(&r, &n, &err));
+        MUST(br_orders_find(&n, 0, &o, &err));
+        const struct br_estimate digits = o.of[0].line[0].observed.factor;
+        assert_true(digits.low > 3 && digits.low < 9.5 && digits.high > 10.5 && digits.high < 25);
+        br_orders_clear(&o);
+        br_numbers_clear(&n);
+        free(text);
+    }
+    q.table = (char *)"p,e\n1,1\n2,.0625\n3,.0123\n4,.0039\n5,.0016\n6,.00077\n"; /* p^-4 */
+    MUST(br_orders_read(&q, &n, &err));
+    MUST(br_orders_find(&n, 0, &o, &err));
+    assert_true(isnan(o.of[0].line[0].observed.factor.value));
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+    q.table = (char *)"degree,e\n0,8e-1\n1,1.01e-1\n2,1.25e-2\n3,1.56e-3\n4,1.96e-4\n";
     MUST(br_expectations_read("e: h exponential 8 +- 0.5", 0, &q.expectation, &q.expectations,
                               &err));
     MUST(br_orders_read(&q, &n, &err));

@@ -283,6 +283,8 @@ TEST(test_refused)
         {"no-such-program-here {n}", "'no-such-program-here' is no program"},
         {"/no/such/program {n}", "'/no/such/program' is no program"},
         {"/tmp {n}", "'/tmp' is no program"},
+        {"sh -x lost.sh {n}", "sh runs 'lost.sh', and no file is there (in /"},
+        {"/bin/sh lost_{n}.sh", "/bin/sh runs 'lost_4.sh', and no file"},
         {"/etc/passwd {n}", "'/etc/passwd' is no program: it is not executable; chmod +x"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

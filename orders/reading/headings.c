@@ -156,20 +156,37 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
             strcpy(name, text); /* "L2(u)", "L2(p)": no units */
             c->unit = NULL;
         }
+    c->rates_in_brackets = c->unit && br_kind_of(c->unit) == BR_KIND_RATE;
+    c->unit = c->rates_in_brackets ? NULL : c->unit;
     c->kind = br_kind_of(c->name);
     return BR_OK;
 }
 
 /* ---- --column ---- */
 
+static bool is_called(const struct br_role_column *c, const char *text, size_t length,
+                      int (*compare)(const char *, const char *, size_t))
+{
+    const char *const names[] = {c->name, c->shown};
+    bool is = false;
+    for (int i = 0; i < 2; i++)
+        is |= names[i] && strlen(names[i]) == length && compare(names[i], text, length) == 0;
+    return is;
+}
+
 size_t br_roles_find_column(const struct br_roles *r, const char *text, size_t length)
 {
-    for (size_t i = 0; i < r->columns; i++) {
-        const char *names[] = {r->column[i].name, r->column[i].shown};
-        for (int k = 0; k < 2; k++)
-            if (names[k] && strlen(names[k]) == length && memcmp(names[k], text, length) == 0)
-                return i;
-    }
+    size_t found = BR_NO_ROW, count = 0;
+    for (size_t i = 0; i < r->columns; i++)
+        if (is_called(&r->column[i], text, length, strncmp))
+            return i;
+    for (size_t i = 0; i < r->columns; i++)
+        if (is_called(&r->column[i], text, length, strncasecmp)) {
+            found = i;
+            count++;
+        }
+    if (count == 1)
+        return found;
     const unsigned long position = strtoul(text, NULL, 10);
     return length && strspn(text, "0123456789") >= length && position > 0 && position <= r->columns
                ? position - 1
@@ -233,6 +250,20 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     return BR_OK;
 }
 
+/* Gives the names of a list the case of their headings. */
+static void settle_case(const struct br_roles *r, char *list)
+{
+    const char *item;
+    size_t length;
+    for (const char *rest = list; rest;) {
+        rest = br_list_next(rest, &item, &length);
+        const size_t found = br_roles_find_column(r, item, length);
+        const char *name = found == BR_NO_ROW ? NULL : r->column[found].name;
+        if (name && strlen(name) == length && strncasecmp(name, item, length) == 0)
+            memcpy(list + (item - list), name, length);
+    }
+}
+
 /* "err_sigma" beside "err" has deviations; alone it is the error of a stress. */
 static void find_deviations(struct br_roles *r)
 {
@@ -258,6 +289,8 @@ enum br_status br_roles_take_headings(struct br_roles *r, struct br_error *err)
         if (take_item(r, item, length, err))
             return err->status;
     }
+    settle_case(r, r->wishes->errors);
+    settle_case(r, r->wishes->values);
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
         snprintf(c->position, sizeof c->position, "%zu", i + 1);

@@ -222,6 +222,12 @@ static bool is_unit_of(enum br_axis axis, const char *unit)
                  unit);
 }
 
+bool br_is_unit(const char *text)
+{
+    return is_unit_of(BR_AXIS_SPACE, text) || is_unit_of(BR_AXIS_TIME, text) ||
+           lists(" N kN Pa kPa MPa GPa K J W kg rad Hz ", text);
+}
+
 /* "grid_spacing_m": without the unit of length or time at its end. False: it has none. */
 static bool without_unit(const char *name, char text[LONGEST])
 {
@@ -384,6 +390,10 @@ enum br_kind br_kind_of(const char *name)
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
     }
+    at = name;
+    next_word(&at, word);
+    if ((!found || found == BR_KIND_ERROR) && lists(" log log2 log10 ln lg ", word))
+        return BR_KIND_LOGARITHM;
     return found                                            ? found
            : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
            : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR
