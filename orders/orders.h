@@ -30,6 +30,7 @@ struct br_quantity {
     bool is_value; /* true: its limit is not known; false: it is an error, whose limit is 0 */
     int digits, decimals; /* the most that one of its numbers has, if zeros at the end are none */
     bool fixed;           /* printed to these decimals; else to these digits */
+    size_t case_at;       /* where " [method = P1]" begins in its name; 0: there is one study */
     /* What a source knows besides; zeros: nothing. */
     double formal[BR_AXES]; /* the order of theory: errors that do not fall, or fall slowly and
                                unevenly, show none then */
@@ -55,6 +56,7 @@ struct br_numbers_row {
     size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
+    double half[2]; /* of the width of the 95 % intervals of both times; 0: not known */
     bool kept;                   /* whether its numbers were kept from an earlier run */
     char *failure;               /* why it has no numbers; NULL: it has; owned */
 };
@@ -73,7 +75,8 @@ struct br_numbers {
     const struct br_resolution_column *listed[BR_AXES]; /* of runs: that of their list */
     char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
     struct br_quantity *quantity;                       /* owned */
-    size_t quantities;
+    size_t quantities, costs; /* the columns of costs stand behind the others */
+    double start[2];          /* of a process, taken away from both times, s */
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
     bool powers; /* the errors of each axis are known to be one power, without scatter and, but for
@@ -109,6 +112,11 @@ void br_numbers_sort(struct br_numbers *numbers);
 /* "n = 40", with the number as given; "the run of n = 40" where a run did not state its size. */
 void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      enum br_axis axis, char text[64]);
+
+/* "n = 8, k = 0.1" */
+enum { BR_CELL_NAME = 2 * 64 + 2 };
+void br_numbers_name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                          char text[BR_CELL_NAME]);
 
 /* Sorts the rows, and makes sizes one that differ by round-off. Refuses (BR_BAD_INPUT, with `path`
  * and the line first) resolutions that are not above 0 or are there twice, fewer than three

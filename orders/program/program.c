@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/each.h"
 #include "base/kept.h"
@@ -17,6 +18,7 @@ struct job {
     struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
     uint64_t *stamp;            /* of each row's files, when the study began; owned */
     struct br_kept *kept;
+    struct br_numbers_row start; /* of a trade: of a process that does nothing */
 };
 
 /* ---- finished cells ---- */
@@ -66,6 +68,86 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
+/* ---- times of a trade ---- */
+
+enum { LEAST_RUNS = 6, MOST_RUNS = 60 };                       /* six hold the median with 97 % */
+static const double longest = 10;                              /* all runs of a cell, s */
+static const double known = 0.05, scatter = 0.1, least = 1e-4; /* s: less is not known */
+
+static int by_time(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* The median of times, which it sorts; *half (out): of its 95 % interval, by ranks. Of a few runs
+ * the clock's usual scatter at least. */
+static double median(double *time, size_t runs, double *half)
+{
+    const double count = (double)runs, rank = floor((count - 1.96 * sqrt(count)) / 2);
+    const size_t low = rank > 1 ? (size_t)rank - 1 : 0;
+    qsort(time, runs, sizeof *time, by_time);
+    const double middle = (time[(runs - 1) / 2] + time[runs / 2]) / 2;
+    *half = fmax((time[runs - 1 - low] - time[low]) / 2, least);
+    if (runs < LEAST_RUNS)
+        *half = fmax(*half, scatter * middle);
+    return middle;
+}
+
+/* Repeats a run, which has warmed up, until the medians of its times are known to 5 %; one that
+ * takes long, once or never. */
+static enum br_status time_runs(const struct br_orders_request *program,
+                                const struct br_command_words *words, struct br_numbers_row *row,
+                                struct br_error *err)
+{
+    struct br_orders_request bare = *program;
+    struct br_numbers_row one = {.failure = NULL};
+    double time[2][MOST_RUNS] = {{row->seconds}, {row->wall}}, spent = row->wall;
+    bool settled = false;
+    bare.readings = 0;
+    for (size_t runs = 0; runs < MOST_RUNS && spent <= longest && !settled;) {
+        const enum br_status status = br_run_command(&bare, words, &one, err);
+        if (status)
+            return status;
+        if (one.failure) {
+            br_run_failed(program, row, err, "when its time was measured: %s", one.failure);
+            free(one.failure);
+            return err->status;
+        }
+        time[0][runs] = one.seconds;
+        time[1][runs++] = one.wall;
+        spent += one.wall;
+        row->seconds = median(time[0], runs, &row->half[0]);
+        row->wall = median(time[1], runs, &row->half[1]);
+        settled = runs >= LEAST_RUNS && row->half[0] <= fmax(known * row->seconds, least) &&
+                  row->half[1] <= fmax(known * row->wall, least);
+    }
+    for (int i = 0; i < 2; i++)
+        if (!row->half[i])
+            row->half[i] = scatter * time[i][0];
+    return BR_OK;
+}
+
+/* The times of a process that does nothing: they are taken away from all others. */
+static enum br_status time_start(const struct br_orders_request *program,
+                                 struct br_numbers_row *row, struct br_error *err)
+{
+    static char path[] = "/bin/true", *word[] = {path, NULL};
+    const struct br_command_words words = {.word = word, .program = path};
+    *row = (struct br_numbers_row){.seconds = 0};
+    return program->cost && access(path, X_OK) == 0 ? time_runs(program, &words, row, err) : BR_OK;
+}
+
+static void take_start_away(const struct br_numbers_row *start, struct br_numbers_row *row)
+{
+    const double taken[2] = {start->seconds, start->wall};
+    double *const time[2] = {&row->seconds, &row->wall};
+    for (int i = 0; i < 2; i++) {
+        row->half[i] = hypot(row->half[i], start->half[i]);
+        *time[i] = fmax(*time[i] - taken[i], row->half[i]);
+    }
+}
+
 /* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. A row is
  * of the files with which the study began, or it has failed. */
 static enum br_status get_row(const struct job *j, const struct br_command_words *words,
@@ -73,8 +155,9 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
 {
     struct row of = {&j->numbers->row[i], j->numbers->quantities};
     of.row->kept = br_kept_take(j->kept, text, pass_row, &of);
-    if (!of.row->kept)
-        br_run_command(j->program, words, of.row, err);
+    if (!of.row->kept && !br_run_command(j->program, words, of.row, err) && j->program->cost &&
+        !of.row->failure && !time_runs(j->program, words, of.row, err))
+        take_start_away(&j->start, of.row);
     if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
         of.row->kept = false;
         return br_run_failed(j->program, of.row, err,
@@ -222,6 +305,8 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             struct br_numbers_row *other = &n->row[first + i];
             row.seconds += other->seconds;
             row.wall += other->wall;
+            for (int k = 0; k < 2; k++)
+                row.half[k] = fmax(row.half[k], other->half[k]);
             row.bytes = fmax(row.bytes, other->bytes);
             row.kept &= other->kept;
             if (!row.failure) {
@@ -289,17 +374,20 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
                   make_quantities(program, numbers, err) || check_commands(&j, err) ||
                   (program->kept && open_kept(&j, err));
     const struct br_each each = {.count = numbers->rows,
-                                 .threads = program->jobs,
+                                 .threads = program->cost ? 1 : program->jobs,
                                  .observer = program->observer,
                                  .turn = take_turn,
                                  .self = &j};
     if (!failed)
         br_run_folders_clean();
-    failed = failed || br_each(&each, err);
+    failed = failed || time_start(program, &j.start, err) || br_each(&each, err);
     free(j.stamp);
-    if (failed)
+    if (failed) {
         br_numbers_clear(numbers);
-    else
-        finish_rows(program, numbers);
-    return failed ? err->status : BR_OK;
+        return err->status;
+    }
+    numbers->start[0] = j.start.seconds;
+    numbers->start[1] = j.start.wall;
+    finish_rows(program, numbers);
+    return BR_OK;
 }

@@ -279,6 +279,9 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
             !c->stated && c->named < BR_USUAL_NAME)
             c->role = BR_ROLE_ERROR;
         c->is_value = br_lists(r->wishes->values, c->name);
+        if (c->name && r->wishes->cost && strcmp(c->name, r->wishes->cost) == 0 &&
+            c->named < BR_USUAL_NAME)
+            c->why = "the cost";
         gci |= c->name && strcasestr(c->name, "gci");
     }
     find_deviations(r);

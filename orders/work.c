@@ -1,0 +1,580 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "orders/work.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "orders/line/line_order.h"
+#include "orders/reading/roles.h"
+
+/* ---- fronts ---- */
+
+/* Errors that differ by less count as equal: those of two linear solvers differ in the last bits.
+ */
+static const double tie = 1e-6;
+
+static bool counts(const struct br_work_point *p)
+{
+    return isfinite(p->error) && isfinite(p->cost);
+}
+
+static bool is_cheaper(const struct br_work_point *a, const struct br_work_point *b)
+{
+    return a->cost < b->cost || (!(a->cost > b->cost) && a->effort < b->effort);
+}
+
+size_t br_work_cheapest(const struct br_work_point *p, size_t count, double target, size_t program,
+                        size_t other)
+{
+    size_t best = count;
+    for (size_t i = 0; i < count; i++)
+        if ((program == SIZE_MAX || p[i].program == program) && p[i].program != other &&
+            p[i].error <= target && counts(&p[i]) && (best == count || is_cheaper(&p[i], &p[best])))
+            best = i;
+    return best;
+}
+
+/* Whether b is better than a; of equals the earlier is better. */
+static bool is_beaten(const struct br_work_point *a, const struct br_work_point *b)
+{
+    if (b->cost < a->cost)
+        return b->error <= (1 + tie) * a->error;
+    return b->cost <= a->cost && (b->error < a->error || (b->error <= a->error && b < a));
+}
+
+void br_work_front(struct br_work_point *p, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        p[i].front = p[i].own = counts(&p[i]);
+        for (size_t j = 0; j < count && p[i].own; j++)
+            if (j != i && is_beaten(&p[i], &p[j])) {
+                p[i].front = false;
+                p[i].own = p[j].program != p[i].program;
+            }
+    }
+}
+
+size_t br_work_next(const struct br_work_point *p, size_t count, size_t last)
+{
+    const double after = last < count ? p[last].cost : -INFINITY;
+    size_t next = count;
+    for (size_t i = 0; i < count; i++)
+        if (p[i].front && p[i].cost > after && (next == count || p[i].cost < p[next].cost))
+            next = i;
+    return next;
+}
+
+bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b)
+{
+    return fabs(a->cost - b->cost) <= hypot(a->half, b->half);
+}
+
+/* ---- what a program has ---- */
+
+/* Where the costs of a program stand. */
+struct place {
+    enum { NOWHERE, IN_COLUMN, IN_SECONDS, IN_WALL, IN_BYTES, IN_SIZE, SEVERAL } in;
+    size_t column;
+    enum br_cost kind;
+    double factor;
+    const char *unit;
+};
+
+struct member {
+    const struct br_work_source *source;
+    const char *of; /* " [method = P1]" */
+    size_t error;   /* a quantity */
+    struct place cost;
+};
+
+enum { NAME = 200 };
+static const char *const cost_units[BR_COSTS + 1] = {"s", "s", "s", "", "", "MB", ""};
+
+static const char *case_of(const struct br_quantity *q)
+{
+    return q->case_at ? q->name + q->case_at : "";
+}
+
+/* Column i, if it is of this program: its name without the case (out). */
+static bool has(const struct member *m, size_t i, char name[NAME])
+{
+    const struct br_quantity *q = &m->source->numbers->quantity[i];
+    const size_t length = q->case_at ? q->case_at : strlen(q->name);
+    snprintf(name, NAME, "%.*s", (int)(length < NAME ? length : NAME - 1), q->name);
+    return strcmp(case_of(q), m->of) == 0;
+}
+
+/* The error of that name; SIZE_MAX: there is none. */
+static size_t find_error(const struct member *m, const char *name, const char *cost)
+{
+    const struct br_numbers *n = m->source->numbers;
+    char text[NAME];
+    for (size_t i = 0; i < n->quantities; i++)
+        if (has(m, i, text) && !n->quantity[i].is_value && strcasecmp(text, name) == 0 &&
+            br_kind_of(text) != BR_KIND_COST && strcmp(text, cost) != 0)
+            return i;
+    return SIZE_MAX;
+}
+
+static bool is_timed(const struct br_numbers *n)
+{
+    bool timed = false;
+    for (size_t i = 0; i < n->rows; i++)
+        timed |= isfinite(n->row[i].seconds);
+    return timed;
+}
+
+/* The column of costs of a name. */
+static struct place find_named(const struct member *m, const char *name)
+{
+    const struct br_numbers *n = m->source->numbers;
+    struct place p = {.in = NOWHERE};
+    char text[NAME];
+    for (size_t i = 0; i < n->quantities + n->costs && !p.in; i++)
+        if (has(m, i, text) && strcmp(text, name) == 0) {
+            p = (struct place){.in = IN_COLUMN, .column = i};
+            p.kind = br_cost_of(text, n->quantity[i].unit, &p.factor);
+            p.unit = p.kind != BR_COSTS    ? cost_units[p.kind]
+                     : n->quantity[i].unit ? n->quantity[i].unit
+                                           : "";
+        }
+    return p;
+}
+
+/* The costs of a kind: of runs as they were measured; a column that says which time it has goes
+ * before one that does not. */
+static struct place find_kind(const struct member *m, enum br_cost kind)
+{
+    const struct br_numbers *n = m->source->numbers;
+    const bool timed = is_timed(n), time = kind <= BR_COST_TIME;
+    const struct br_resolution_column *size = n->column[BR_AXIS_SPACE];
+    struct place p = {.in = NOWHERE, .kind = kind, .factor = 1, .unit = cost_units[kind]};
+    char text[NAME];
+    if (timed && (time || kind == BR_COST_MEMORY))
+        p.in = kind == BR_COST_WALL ? IN_WALL : time ? IN_SECONDS : IN_BYTES;
+    else if (kind == BR_COST_DOFS && size && strcmp(size->name, "dofs") == 0)
+        p.in = IN_SIZE;
+    for (int pass = 0; pass < (time ? 2 : 1) && !p.in; pass++)
+        for (size_t i = 0; i < n->quantities + n->costs; i++) {
+            double factor;
+            if (!has(m, i, text) ||
+                br_cost_of(text, n->quantity[i].unit, &factor) != (pass ? BR_COST_TIME : kind))
+                continue;
+            p.in = p.in ? SEVERAL : IN_COLUMN;
+            p.column = i;
+            p.factor = factor;
+            p.kind = pass ? BR_COST_TIME : kind;
+        }
+    return p;
+}
+
+static double cost_at(const struct member *m, const struct br_numbers_row *row, double *half)
+{
+    static const double scatter = 0.1; /* of a clock that was read once */
+    const struct place *p = &m->cost;
+    const double number = p->in == IN_SECONDS ? row->seconds
+                          : p->in == IN_WALL  ? row->wall
+                          : p->in == IN_BYTES ? row->bytes
+                          : p->in == IN_SIZE  ? row->given[BR_AXIS_SPACE]
+                                              : row->number[p->column];
+    const double cost = number * p->factor * (p->kind == BR_COST_MEMORY ? 1e-6 : 1);
+    const double deviation = p->in == IN_COLUMN ? row->deviation[p->column] : (double)NAN;
+    *half = isfinite(deviation)                       ? 2 * deviation * p->factor
+            : p->in == IN_SECONDS || p->in == IN_WALL ? row->half[p->in == IN_WALL]
+                                                      : 0;
+    if (p->kind <= BR_COST_TIME && !(*half > 0))
+        *half = scatter * cost;
+    return cost > 0 ? cost : (double)NAN;
+}
+
+/* ---- what all have ---- */
+
+struct members {
+    struct member *list; /* owned */
+    size_t count;
+    const char *cost; /* of --cost */
+};
+
+static void say_name(const struct member *m, char *text, size_t size)
+{
+    br_append(text, size, "%s%s", m->source->name, m->of);
+}
+
+static enum br_status list_members(const struct br_work_source *source, size_t sources,
+                                   struct members *all, struct br_error *err)
+{
+    size_t most = 0;
+    for (size_t s = 0; s < sources; s++)
+        most += source[s].numbers->quantities;
+    if (!(all->list = br_allocate(most + 1, sizeof *all->list)))
+        return br_no_memory(err, "the programs");
+    for (size_t s = 0; s < sources; s++)
+        for (size_t i = 0; i < source[s].numbers->quantities; i++) {
+            const char *of = case_of(&source[s].numbers->quantity[i]);
+            const struct member *m = all->list;
+            while (m < all->list + all->count &&
+                   (strcmp(m->source->name, source[s].name) || strcmp(m->of, of)))
+                m++;
+            if (m == all->list + all->count)
+                all->list[all->count++] = (struct member){.source = &source[s], .of = of};
+            else if (m->source != &source[s])
+                return br_fail(err, BR_BAD_INPUT,
+                               "two programs are called '%s', expected files of different names",
+                               source[s].name);
+        }
+    return BR_OK;
+}
+
+/* Sets the costs of all to one kind, or to the column of a name, else its kind. */
+static bool have_kind(struct members *all, enum br_cost kind, const char *name)
+{
+    bool have = true;
+    for (struct member *m = all->list; m < all->list + all->count; m++) {
+        m->cost = name ? find_named(m, name) : (struct place){.in = NOWHERE};
+        if (!m->cost.in && kind != BR_COSTS)
+            m->cost = find_kind(m, kind);
+        have &= m->cost.in != NOWHERE;
+    }
+    return have;
+}
+
+static enum br_status refuse_costs(const struct members *all, struct br_error *err)
+{
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        bool any = *all->cost && m->cost.in;
+        for (enum br_cost kind = 0; kind < BR_COSTS && !*all->cost; kind++)
+            any |= find_kind(m, kind).in != NOWHERE;
+        if (!any)
+            return br_fail(err, BR_BAD_INPUT,
+                           *all->cost ? "%s%s: --cost: found no cost '%s'"
+                                      : "%s%s: found no column of a cost%s, expected one like "
+                                        "seconds, cpu, wall, dofs, iterations or memory; --cost "
+                                        "NAME names another one",
+                           m->source->path, m->of, all->cost);
+    }
+    return br_fail(err, BR_BAD_INPUT,
+                   "found no cost that all programs have: --cost NAME names one");
+}
+
+static enum br_status choose_cost(struct members *all, struct br_error *err)
+{
+    static const enum br_cost usual[] = {BR_COST_CPU, BR_COST_WALL, BR_COST_DOFS,
+                                         BR_COST_ITERATIONS, BR_COST_MEMORY};
+    const bool named = *all->cost;
+    double factor;
+    bool found = named && have_kind(all, br_cost_of(all->cost, NULL, &factor), all->cost);
+    for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
+        found = have_kind(all, usual[i], NULL);
+    if (!found)
+        return refuse_costs(all, err);
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        if (m->cost.in == SEVERAL)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: several columns may be the cost, one of them is %s: --cost NAME "
+                           "chooses one",
+                           m->source->path, m->source->numbers->quantity[m->cost.column].name);
+        if (strcmp(m->cost.unit, all->list->cost.unit) != 0)
+            return br_fail(err, BR_BAD_INPUT, "%s: %s has the unit '%s', that of %s has '%s'",
+                           m->source->path, all->cost, m->cost.unit, all->list->source->path,
+                           all->list->cost.unit);
+    }
+    return BR_OK;
+}
+
+/* "fd measures max; fem measures l2, h1: ..." */
+static enum br_status refuse_errors(const struct members *all, struct br_error *err)
+{
+    char text[700] = "", name[NAME];
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        size_t said = 0;
+        br_append(text, sizeof text, m == all->list ? "" : "; ");
+        say_name(m, text, sizeof text);
+        for (size_t i = 0; i < m->source->numbers->quantities; i++)
+            if (has(m, i, name) && find_error(m, name, all->cost) == i)
+                br_append(text, sizeof text, "%s%s", said++ ? ", " : " measures ", name);
+        if (!said)
+            br_append(text, sizeof text, " measures no error");
+    }
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: expected an error of one name that all measure ('read:' of a study file "
+                   "names it, 'column:' that of a table)",
+                   text);
+}
+
+/* Whether all measure an error; two units refuse. */
+static bool all_measure(struct members *all, const char *name, struct br_work *w,
+                        struct br_error *err)
+{
+    w->unit = NULL;
+    for (struct member *m = all->list; m < all->list + all->count; m++) {
+        if ((m->error = find_error(m, name, all->cost)) == SIZE_MAX)
+            return false;
+        const char *unit = m->source->numbers->quantity[m->error].unit;
+        if (unit && w->unit && strcmp(unit, w->unit) != 0)
+            br_fail(err, BR_BAD_INPUT, "%s: %s has the unit %s, and %s in another program",
+                    m->source->path, name, unit, w->unit);
+        w->unit = unit ? unit : w->unit;
+    }
+    snprintf(w->quantity, sizeof w->quantity, "%s", name);
+    return true;
+}
+
+/* ---- points ---- */
+
+/* The axis along which the rows are one line; BR_AXES: they are none. */
+static enum br_axis line_of(const struct br_numbers *n)
+{
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
+        bool line = n->column[axis];
+        for (size_t i = 1; i < n->rows && line; i++)
+            line = n->row[i].z[axis] < n->row[i - 1].z[axis];
+        if (line)
+            return axis;
+    }
+    return BR_AXES;
+}
+
+static void take_points(struct br_work *w, const struct member *m)
+{
+    const struct br_numbers *n = m->source->numbers;
+    const enum br_axis axis = line_of(n);
+    struct br_work_program *p = &w->program[w->programs];
+    say_name(m, p->name, sizeof p->name);
+    for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
+        if (row->absent && row->absent[m->error])
+            continue;
+        struct br_work_point *at = &w->point[w->points];
+        *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
+        at->cost = cost_at(m, row, &at->half);
+        at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
+        at->is_start = m->cost.in == IN_SECONDS || m->cost.in == IN_WALL
+                           ? at->cost < n->start[m->cost.in == IN_WALL]
+                           : false;
+        br_numbers_name_cell(n, row, at->label);
+        if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
+            w->points++;
+            p->points++;
+        } else if (!p->failed++) {
+            strcpy(p->first, at->label);
+            p->failure = row->failure       ? row->failure
+                         : isnan(at->error) ? "no error"
+                         : at->error > 0    ? "no cost above 0"
+                                            : "an error of 0";
+        }
+    }
+    w->programs++;
+}
+
+/* The exponent of the costs between a point and the next finer one. */
+static double exponent(const struct br_work_point *p)
+{
+    return log(p[1].cost / p[0].cost) / log(p[0].z / p[1].z);
+}
+
+/* Coarse sizes whose cost hardly grows: a run there is mostly its start. */
+static void find_starts(struct br_work_point *p, size_t count)
+{
+    static const double hardly = 0.5;
+    double most = 0;
+    for (size_t i = 0; i + 1 < count; i++)
+        most = fmax(most, exponent(&p[i]));
+    for (size_t i = 0; i + 1 < count && exponent(&p[i]) < fmin(hardly, most / 2); i++)
+        p[i].is_start = true;
+}
+
+static enum br_status check_growth(const struct br_work *w, const struct member *m,
+                                   const struct br_work_point *p, size_t count,
+                                   struct br_error *err)
+{
+    static const double clearly = 0.9;
+    const struct br_work_point *last = p + count - 1;
+    if (!count || !(last->cost + last->half < clearly * (p->cost - p->half)))
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: %s falls from %.3g %s at %s to %.3g %s at %s, expected a cost that grows "
+                   "with finer sizes; --cost NAME names another one",
+                   m->source->path, w->cost, p->cost, w->cost_unit, p->label, last->cost,
+                   w->cost_unit, last->label);
+}
+
+/* ---- how costs grow ---- */
+
+enum line { COST_OVER_SIZE, ERROR_OVER_SIZE, ERROR_OVER_COST };
+
+static int by_size(const void *a, const void *b)
+{
+    const struct br_order_point *x = a, *y = b;
+    return (x->z < y->z) - (x->z > y->z);
+}
+
+/* The order along the points; without the starts where costs count,
+ * and over costs of the points of the program's own front. */
+static enum br_status find_order(const struct br_work_point *p, size_t count, enum line what,
+                                 struct br_estimate *order, struct br_error *err)
+{
+    struct br_order_point *at = br_allocate(count + 1, sizeof *at);
+    struct br_line_order found;
+    size_t taken = 0;
+    if (!at)
+        return br_no_memory(err, "the costs");
+    for (size_t i = 0; i < count; i++) {
+        if (what == ERROR_OVER_COST ? p[i].is_start || !p[i].own
+                                    : isnan(p[i].z) || (p[i].is_start && what == COST_OVER_SIZE))
+            continue;
+        struct br_order_point *to = &at[taken++];
+        *to = (struct br_order_point){.z = p[i].z, .error = p[i].error};
+        if (what == ERROR_OVER_COST)
+            to->z = 1 / p[i].cost;
+        if (what == COST_OVER_SIZE) {
+            to->error = 1 / p[i].cost;
+            to->deviation = p[i].half / 2 / pow(p[i].cost, 2);
+        }
+    }
+    qsort(at, taken, sizeof *at, by_size);
+    const enum br_status status = br_line_order_find(at, taken, &found, err);
+    *order = br_order_determined(&found.order) ? found.order : (struct br_estimate){NAN, NAN, NAN};
+    free(at);
+    return status;
+}
+
+/* What the wanted error costs, if the order of the error and the growth of the cost stay. */
+static void foresee(const struct br_work *w, struct br_work_program *p, const struct br_numbers *n,
+                    const struct br_work_point *finest, const struct br_estimate *order)
+{
+    static const double most = 100; /* times finer: nobody knows more */
+    const double less = finest->error / w->wanted, finer = pow(less, 1 / order->value);
+    const enum br_axis axis = line_of(n);
+    p->needed = (struct br_estimate){NAN, NAN, NAN};
+    if (!(less > 1 && finer <= most && p->growth.low > 0))
+        return;
+    const struct br_resolution_column *c = n->column[axis];
+    const double given = br_numbers_given(c, finest->z / finer, n->dimension);
+    p->needed.value = finest->cost * pow(less, p->growth.value / order->value);
+    p->needed.low = (finest->cost - finest->half) * pow(less, p->growth.low / order->high);
+    p->needed.high = (finest->cost + finest->half) * pow(less, p->growth.high / order->low);
+    snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
+}
+
+static enum br_status study_program(struct br_work *w, size_t program, const struct member *m,
+                                    struct br_error *err)
+{
+    struct br_work_program *p = &w->program[program];
+    struct br_work_point *at = w->point;
+    struct br_estimate order, over;
+    while (at < w->point + w->points && at->program != program)
+        at++;
+    if (find_order(at, p->points, COST_OVER_SIZE, &p->growth, err) ||
+        find_order(at, p->points, ERROR_OVER_SIZE, &order, err) ||
+        find_order(at, p->points, ERROR_OVER_COST, &over, err))
+        return err->status;
+    p->tenth = (struct br_estimate){pow(10, 1 / over.value), pow(10, 1 / over.high),
+                                    pow(10, 1 / over.low)};
+    for (size_t i = 0; i < p->points && at[i].is_start; i++)
+        strcpy(p->starts, at[i].label);
+    p->needed = (struct br_estimate){NAN, NAN, NAN};
+    if (p->points)
+        foresee(w, p, m->source->numbers, &at[p->points - 1], &order);
+    return BR_OK;
+}
+
+/* ---- all ---- */
+
+static const char *name_cost(const struct members *all)
+{
+    static const char *const names[] = {"processor time", "wall time",  "time",
+                                        "dofs",           "iterations", "peak memory"};
+    enum br_cost kind = all->list->cost.kind;
+    for (size_t i = 0; i < all->count; i++) /* a column may not say which time it has */
+        kind = all->list[i].cost.kind == BR_COST_TIME ? BR_COST_TIME : kind;
+    return kind == BR_COSTS ? all->cost : names[kind];
+}
+
+static enum br_status fill(struct br_work *w, const struct members *all, struct br_error *err)
+{
+    size_t rows = 0;
+    for (size_t i = 0; i < all->count; i++)
+        rows += all->list[i].source->numbers->rows;
+    w->program = br_allocate(all->count, sizeof *w->program);
+    w->point = br_allocate(rows + 1, sizeof *w->point);
+    if (!w->program || !w->point)
+        return br_no_memory(err, "the programs");
+    w->cost = name_cost(all);
+    w->cost_unit = all->list->cost.unit;
+    w->is_time = all->list->cost.kind <= BR_COST_TIME;
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        struct br_work_point *first = w->point + w->points;
+        take_points(w, m);
+        const size_t count = w->points - (size_t)(first - w->point);
+        if (line_of(m->source->numbers) == BR_AXES)
+            continue;
+        if (check_growth(w, m, first, count, err))
+            return err->status;
+        if (w->is_time)
+            find_starts(first, count);
+    }
+    if (!w->points)
+        return br_fail(err, BR_NOT_FINITE,
+                       "no run has an error %s above 0 and a cost; the first: %s", w->quantity,
+                       w->program->failure);
+    double least = INFINITY;
+    for (size_t i = 0; i < w->points; i++)
+        least = fmin(least, w->point[i].error);
+    w->wanted = fmin(1e-6, pow(10, ceil(log10(least)) - 1));
+    br_work_front(w->point, w->points);
+    for (size_t i = 0; i < w->programs; i++)
+        if (study_program(w, i, &all->list[i], err))
+            return err->status;
+    return BR_OK;
+}
+
+/* One for each error of the first program that all measure. */
+static enum br_status find_all(struct members *all, struct br_work *works, size_t *count,
+                               struct br_error *err)
+{
+    const struct member *first = all->list;
+    char name[NAME];
+    err->status = BR_OK;
+    for (size_t i = 0; i < first->source->numbers->quantities; i++)
+        if (has(first, i, name) && all_measure(all, name, &works[*count], err) && !err->status &&
+            fill(&works[(*count)++], all, err))
+            return err->status;
+    return err->status || *count ? err->status : refuse_errors(all, err);
+}
+
+enum br_status br_work_find(const struct br_work_source *source, size_t sources, const char *cost,
+                            struct br_work **works, size_t *count, struct br_error *err)
+{
+    struct members all = {.cost = cost};
+    *count = 0;
+    *works = br_allocate(source->numbers->quantities + 1, sizeof **works);
+    bool failed = !*works && br_no_memory(err, "the programs");
+    failed = failed || list_members(source, sources, &all, err) || choose_cost(&all, err) ||
+             find_all(&all, *works, count, err);
+    free(all.list);
+    return failed ? err->status : BR_OK;
+}
+
+void br_work_clear(struct br_work *works, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        free(works[i].program);
+        free(works[i].point);
+    }
+    free(works);
+}
+
+size_t br_work_targets(const struct br_work *w, double target[BR_WORK_DIGITS])
+{
+    double most = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < w->points; i++)
+        most = fmax(most, w->point[i].error);
+    for (int digit = (int)floor(log10(most)); count < BR_WORK_DIGITS; digit--) {
+        target[count] = pow(10, digit);
+        if (br_work_cheapest(w->point, w->points, target[count], SIZE_MAX, SIZE_MAX) == w->points)
+            break;
+        count++;
+    }
+    return count;
+}
