@@ -41,6 +41,7 @@ enum br_option_id {
     BR_OPT_VALUE,
     BR_OPT_COLUMN,
     BR_OPT_WHERE,
+    BR_OPT_COST,
     BR_OPT_DIMENSION,
     BR_OPT_FORMAL,
     BR_OPT_EXPECT,

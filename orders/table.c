@@ -266,13 +266,14 @@ static void say_sizes(struct source *s, enum br_axis axis)
         say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
 }
 
+/* role: BR_ROLE_ASIDE, the costs. */
 static void say_columns(struct source *s, enum br_role role, const char *what)
 {
     const struct br_roles *r = &s->roles;
     char text[200];
     size_t said = 0;
     for (size_t i = 0; i < r->columns; i++)
-        if (r->column[i].role == role)
+        if (role ? r->column[i].role == role : is_cost(s, &r->column[i]))
             say(s, "%s%s", said++ ? ", " : what, quoted(r->column[i].label, text));
 }
 
@@ -294,7 +295,8 @@ static void list_left(struct source *s)
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
-        if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
+        if ((r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) &&
+            !is_cost(s, &r->column[i])) {
             say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
         }
@@ -349,6 +351,7 @@ static enum br_status state(struct source *s, struct br_error *err)
         say_sizes(s, (enum br_axis)axis);
     say_columns(s, BR_ROLE_ERROR, "; errors: ");
     say_columns(s, BR_ROLE_VALUE, "; values: ");
+    say_columns(s, BR_ROLE_ASIDE, "; costs: ");
     say_columns(s, BR_ROLE_DEVIATION, "; standard deviations: ");
     say_columns(s, BR_ROLE_CASE, "; a study for each of: ");
     if (r->means)
@@ -441,7 +444,8 @@ static enum br_status take_all(struct source *s, struct br_error *err)
     for (int axis = 0; axis < BR_AXES; axis++)
         if (take_sizes(s, (enum br_axis)axis, err))
             return err->status;
-    if (take_quantities(s, false, err) || take_costs(s, err) || state(s, err) || check_lists(s, err))
+    if (take_quantities(s, false, err) || take_costs(s, err) || state(s, err) ||
+        check_lists(s, err))
         return err->status;
     return s->numbers->quantities ? BR_OK : refuse_values(s, err);
 }

@@ -338,8 +338,8 @@ static enum br_axis line_of(const struct br_numbers *n)
 static void take_points(struct br_work *w, const struct member *m)
 {
     const struct br_numbers *n = m->source->numbers;
-    const enum br_axis axis = line_of(n);
     struct br_work_program *p = &w->program[w->programs];
+    const enum br_axis axis = p->axis = line_of(n);
     say_name(m, p->name, sizeof p->name);
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
         if (row->absent && row->absent[m->error])
@@ -444,11 +444,10 @@ static void foresee(const struct br_work *w, struct br_work_program *p, const st
 {
     static const double most = 100; /* times finer: nobody knows more */
     const double less = finest->error / w->wanted, finer = pow(less, 1 / order->value);
-    const enum br_axis axis = line_of(n);
     p->needed = (struct br_estimate){NAN, NAN, NAN};
     if (!(less > 1 && finer <= most && p->growth.low > 0))
         return;
-    const struct br_resolution_column *c = n->column[axis];
+    const struct br_resolution_column *c = n->column[p->axis];
     const double given = br_numbers_given(c, finest->z / finer, n->dimension);
     p->needed.value = finest->cost * pow(less, p->growth.value / order->value);
     p->needed.low = (finest->cost - finest->half) * pow(less, p->growth.low / order->high);
@@ -506,7 +505,7 @@ static enum br_status fill(struct br_work *w, const struct members *all, struct 
         struct br_work_point *first = w->point + w->points;
         take_points(w, m);
         const size_t count = w->points - (size_t)(first - w->point);
-        if (line_of(m->source->numbers) == BR_AXES)
+        if (w->program[w->programs - 1].axis == BR_AXES)
             continue;
         if (check_growth(w, m, first, count, err))
             return err->status;

@@ -47,6 +47,7 @@ struct br_work_source {
 /* Numbers may be NaN: not known. */
 struct br_work_program {
     char name[400];            /* "fd", "table [method = P1]" */
+    enum br_axis axis;         /* along which it is refined alone; BR_AXES: there is none */
     struct br_estimate growth; /* the cost grows as the size to the power -growth */
     struct br_estimate tenth;  /* a tenth of the error costs so many times as much */
     struct br_estimate needed; /* what the error `wanted` costs, if both orders stay, */
