@@ -45,14 +45,6 @@ bool br_is_trade_source(const char *word)
     return is;
 }
 
-/* "fd" of "programs/fd.yaml". */
-static void name_source(const char *word, char *name, size_t size)
-{
-    const char *slash = strrchr(word, '/'), *from = slash && slash[1] ? slash + 1 : word;
-    const char *dot = strrchr(from, '.');
-    snprintf(name, size, "%.*s", dot > from ? (int)(dot - from) : (int)strlen(from), from);
-}
-
 static enum br_status read_source(struct run *r, const char *word, struct br_error *err)
 {
     struct br_study_file *f = &r->file[r->files];
@@ -60,7 +52,6 @@ static enum br_status read_source(struct run *r, const char *word, struct br_err
     struct br_orders_request *q = &f->request;
     char *text = NULL;
     const bool standard = strcmp(word, "-") == 0;
-    name_source(standard ? "standard input" : word, s->name, sizeof s->name);
     if (br_text_load(standard ? BR_STANDARD_INPUT : word, BR_LONGEST_TABLE, "table or study file",
                      &text, err))
         return err->status;
@@ -70,7 +61,7 @@ static enum br_status read_source(struct run *r, const char *word, struct br_err
     } else {
         *q = br_orders_request_default();
         q->table = text;
-        if (!(q->path = strdup(word)))
+        if (!(q->path = strdup(standard ? "standard input" : word)))
             br_no_memory(err, "the table");
     }
     q->cost = r->cost;
@@ -91,6 +82,7 @@ static enum br_status read_all(struct run *r, const struct br_work_source *other
     for (size_t i = 0; i < o->words; i++)
         if ((!others || br_is_trade_source(o->word[i])) && read_source(r, o->word[i], err))
             return err->status;
+    br_work_name_sources(r->source, r->files);
     for (r->sources = r->files; r->sources < r->files + others; r->sources++)
         r->source[r->sources] = other[r->sources - r->files];
     return BR_OK;
@@ -118,7 +110,10 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         return err->status;
     struct br_document *d = r->session->document;
     br_provenance_fill(&provenance, r->session->threads);
-    br_report_work(r->works, r->count, provenance.machine, d);
+    bool runs = false;
+    for (size_t i = 0; i < r->files; i++)
+        runs |= r->file[i].request.command != NULL;
+    br_report_work(r->works, r->count, runs ? provenance.machine : NULL, d);
     for (size_t i = 0; i < r->files; i++)
         if (r->file[i].numbers.taken)
             br_put_note(d, "%s: %s.", r->source[i].name, r->file[i].numbers.taken);

@@ -76,7 +76,6 @@ struct br_numbers {
     char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
     struct br_quantity *quantity;                       /* owned */
     size_t quantities, costs; /* the columns of costs stand behind the others */
-    double start[2];          /* of a process, taken away from both times, s */
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
     bool powers; /* the errors of each axis are known to be one power, without scatter and, but for

@@ -72,6 +72,30 @@ bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b)
 
 /* ---- what a program has ---- */
 
+static void name_source(const char *path, char *name, size_t size)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
+    const char *slash = strrchr(path, '/'), *from = slash && slash[1] ? slash + 1 : path;
+    const char *dot = strrchr(from, '.');
+    const bool cut = dot > from && dot[1] && strspn(dot + 1, letters) == strlen(dot + 1);
+    snprintf(name, size, "%.*s", cut ? (int)(dot - from) : (int)strlen(from), from);
+}
+
+void br_work_name_sources(struct br_work_source *s, size_t count)
+{
+    char other[sizeof s->name];
+    for (size_t i = 0; i < count; i++) {
+        name_source(s[i].path, s[i].name, sizeof s[i].name);
+        bool twice = false;
+        for (size_t k = 0; k < count && !twice; k++) {
+            name_source(s[k].path, other, sizeof other);
+            twice = k != i && strcmp(other, s[i].name) == 0;
+        }
+        if (twice)
+            snprintf(s[i].name, sizeof s[i].name, "%.299s", s[i].path);
+    }
+}
+
 /* Where the costs of a program stand. */
 struct place {
     enum { NOWHERE, IN_COLUMN, IN_SECONDS, IN_WALL, IN_BYTES, IN_SIZE, SEVERAL } in;
@@ -337,6 +361,7 @@ static enum br_axis line_of(const struct br_numbers *n)
 
 static void take_points(struct br_work *w, const struct member *m)
 {
+    static const double least = 4; /* a cost is known to a quarter */
     const struct br_numbers *n = m->source->numbers;
     struct br_work_program *p = &w->program[w->programs];
     const enum br_axis axis = p->axis = line_of(n);
@@ -348,19 +373,19 @@ static void take_points(struct br_work *w, const struct member *m)
         *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
         at->cost = cost_at(m, row, &at->half);
         at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
-        at->is_start = m->cost.in == IN_SECONDS || m->cost.in == IN_WALL
-                           ? at->cost < n->start[m->cost.in == IN_WALL]
-                           : false;
+        at->is_start = (m->cost.in == IN_SECONDS || m->cost.in == IN_WALL) &&
+                       at->cost < least * at->half; /* as much as the start scatters */
         br_numbers_name_cell(n, row, at->label);
         if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
             w->points++;
             p->points++;
         } else if (!p->failed++) {
             strcpy(p->first, at->label);
-            p->failure = row->failure       ? row->failure
-                         : isnan(at->error) ? "no error"
-                         : at->error > 0    ? "no cost above 0"
-                                            : "an error of 0";
+            p->failure = row->failure             ? row->failure
+                         : isnan(at->error)       ? "no error"
+                         : !(at->error > 0)       ? "an error of 0"
+                         : m->cost.in == IN_BYTES ? "no peak memory is known, as of a small program"
+                                                  : "no cost above 0";
         }
     }
     w->programs++;
@@ -372,8 +397,8 @@ static double exponent(const struct br_work_point *p)
     return log(p[1].cost / p[0].cost) / log(p[0].z / p[1].z);
 }
 
-/* Coarse sizes whose cost hardly grows: a run there is mostly its start. */
-static void find_starts(struct br_work_point *p, size_t count)
+/* Coarse sizes whose cost hardly grows: a run there is mostly its start. *start (out): that. */
+static void find_starts(struct br_work_point *p, size_t count, double *start)
 {
     static const double hardly = 0.5;
     double most = 0;
@@ -381,6 +406,9 @@ static void find_starts(struct br_work_point *p, size_t count)
         most = fmax(most, exponent(&p[i]));
     for (size_t i = 0; i + 1 < count && exponent(&p[i]) < fmin(hardly, most / 2); i++)
         p[i].is_start = true;
+    for (size_t i = 0; i < count; i++)
+        if (p[i].is_start)
+            *start = *start > 0 ? fmin(*start, p[i].cost) : p[i].cost;
 }
 
 static enum br_status check_growth(const struct br_work *w, const struct member *m,
@@ -408,27 +436,31 @@ static int by_size(const void *a, const void *b)
     return (x->z < y->z) - (x->z > y->z);
 }
 
-/* The order along the points; without the starts where costs count,
- * and over costs of the points of the program's own front. */
-static enum br_status find_order(const struct br_work_point *p, size_t count, enum line what,
+/* The order along the points of a program. Costs are without its start, and without the sizes that
+ * are mostly that; over costs, of the points of its own front. */
+static enum br_status find_order(const struct br_work_program *program,
+                                 const struct br_work_point *p, enum line what,
                                  struct br_estimate *order, struct br_error *err)
 {
+    const size_t count = program->points;
     struct br_order_point *at = br_allocate(count + 1, sizeof *at);
     struct br_line_order found;
     size_t taken = 0;
     if (!at)
         return br_no_memory(err, "the costs");
     for (size_t i = 0; i < count; i++) {
-        if (what == ERROR_OVER_COST ? p[i].is_start || !p[i].own
-                                    : isnan(p[i].z) || (p[i].is_start && what == COST_OVER_SIZE))
+        const bool small = p[i].is_start || p[i].cost <= program->start;
+        if (what == ERROR_OVER_COST ? small || !p[i].own
+                                    : isnan(p[i].z) || (small && what == COST_OVER_SIZE))
             continue;
         struct br_order_point *to = &at[taken++];
         *to = (struct br_order_point){.z = p[i].z, .error = p[i].error};
+        const double cost = p[i].cost - program->start;
         if (what == ERROR_OVER_COST)
-            to->z = 1 / p[i].cost;
+            to->z = 1 / cost;
         if (what == COST_OVER_SIZE) {
-            to->error = 1 / p[i].cost;
-            to->deviation = p[i].half / 2 / pow(p[i].cost, 2);
+            to->error = 1 / cost;
+            to->deviation = p[i].half / 2 / pow(cost, 2);
         }
     }
     qsort(at, taken, sizeof *at, by_size);
@@ -439,19 +471,24 @@ static enum br_status find_order(const struct br_work_point *p, size_t count, en
 }
 
 /* What the wanted error costs, if the order of the error and the growth of the cost stay. */
-static void foresee(const struct br_work *w, struct br_work_program *p, const struct br_numbers *n,
+static void foresee(struct br_work_program *p, const struct br_numbers *n,
                     const struct br_work_point *finest, const struct br_estimate *order)
 {
     static const double most = 100; /* times finer: nobody knows more */
-    const double less = finest->error / w->wanted, finer = pow(less, 1 / order->value);
+    const double next = pow(10, ceil(log10(finest->error)) - 1);
+    p->wanted = finest->error > 1e-6 ? 1e-6 : next;
+    if (!(pow(finest->error / p->wanted, 1 / order->value) <= most))
+        p->wanted = next;
+    const double less = finest->error / p->wanted, finer = pow(less, 1 / order->value);
     p->needed = (struct br_estimate){NAN, NAN, NAN};
-    if (!(less > 1 && finer <= most && p->growth.low > 0))
+    if (!(finer <= most && p->growth.low > 0))
         return;
     const struct br_resolution_column *c = n->column[p->axis];
     const double given = br_numbers_given(c, finest->z / finer, n->dimension);
-    p->needed.value = finest->cost * pow(less, p->growth.value / order->value);
-    p->needed.low = (finest->cost - finest->half) * pow(less, p->growth.low / order->high);
-    p->needed.high = (finest->cost + finest->half) * pow(less, p->growth.high / order->low);
+    const double cost = finest->cost - p->start;
+    p->needed.value = p->start + cost * pow(less, p->growth.value / order->value);
+    p->needed.low = p->start + (cost - finest->half) * pow(less, p->growth.low / order->high);
+    p->needed.high = p->start + (cost + finest->half) * pow(less, p->growth.high / order->low);
     snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
 }
 
@@ -463,17 +500,18 @@ static enum br_status study_program(struct br_work *w, size_t program, const str
     struct br_estimate order, over;
     while (at < w->point + w->points && at->program != program)
         at++;
-    if (find_order(at, p->points, COST_OVER_SIZE, &p->growth, err) ||
-        find_order(at, p->points, ERROR_OVER_SIZE, &order, err) ||
-        find_order(at, p->points, ERROR_OVER_COST, &over, err))
+    if (find_order(p, at, COST_OVER_SIZE, &p->growth, err) ||
+        find_order(p, at, ERROR_OVER_SIZE, &order, err) ||
+        find_order(p, at, ERROR_OVER_COST, &over, err))
         return err->status;
     p->tenth = (struct br_estimate){pow(10, 1 / over.value), pow(10, 1 / over.high),
                                     pow(10, 1 / over.low)};
     for (size_t i = 0; i < p->points && at[i].is_start; i++)
         strcpy(p->starts, at[i].label);
     p->needed = (struct br_estimate){NAN, NAN, NAN};
+    p->wanted = NAN;
     if (p->points)
-        foresee(w, p, m->source->numbers, &at[p->points - 1], &order);
+        foresee(p, m->source->numbers, &at[p->points - 1], &order);
     return BR_OK;
 }
 
@@ -498,7 +536,7 @@ static enum br_status fill(struct br_work *w, const struct members *all, struct 
     w->point = br_allocate(rows + 1, sizeof *w->point);
     if (!w->program || !w->point)
         return br_no_memory(err, "the programs");
-    w->cost = name_cost(all);
+    snprintf(w->cost, sizeof w->cost, "%s", name_cost(all));
     w->cost_unit = all->list->cost.unit;
     w->is_time = all->list->cost.kind <= BR_COST_TIME;
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
@@ -510,16 +548,12 @@ static enum br_status fill(struct br_work *w, const struct members *all, struct 
         if (check_growth(w, m, first, count, err))
             return err->status;
         if (w->is_time)
-            find_starts(first, count);
+            find_starts(first, count, &w->program[w->programs - 1].start);
     }
     if (!w->points)
         return br_fail(err, BR_NOT_FINITE,
                        "no run has an error %s above 0 and a cost; the first: %s", w->quantity,
                        w->program->failure);
-    double least = INFINITY;
-    for (size_t i = 0; i < w->points; i++)
-        least = fmin(least, w->point[i].error);
-    w->wanted = fmin(1e-6, pow(10, ceil(log10(least)) - 1));
     br_work_front(w->point, w->points);
     for (size_t i = 0; i < w->programs; i++)
         if (study_program(w, i, &all->list[i], err))
@@ -565,15 +599,15 @@ void br_work_clear(struct br_work *works, size_t count)
 
 size_t br_work_targets(const struct br_work *w, double target[BR_WORK_DIGITS])
 {
-    double most = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < w->points; i++)
+    double most = 0, least = INFINITY;
+    for (size_t i = 0; i < w->points; i++) {
         most = fmax(most, w->point[i].error);
-    for (int digit = (int)floor(log10(most)); count < BR_WORK_DIGITS; digit--) {
-        target[count] = pow(10, digit);
-        if (br_work_cheapest(w->point, w->points, target[count], SIZE_MAX, SIZE_MAX) == w->points)
-            break;
-        count++;
+        least = fmin(least, w->point[i].error);
     }
+    size_t count = 0;
+    int digit = (int)floor(log10(most));
+    digit += least > pow(10, digit); /* no power of ten lies between them */
+    for (; count < BR_WORK_DIGITS && (target[count] = pow(10, digit)) >= least; digit--)
+        count++;
     return count;
 }

@@ -39,10 +39,14 @@ bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b);
 /* ---- of the numbers of programs ---- */
 
 struct br_work_source {
-    char name[200];
+    char name[300];
     const char *path; /* for messages; borrowed, as the numbers */
     const struct br_numbers *numbers;
 };
+
+/* Names sources by their paths: "fd" of "programs/fd.yaml", but the whole path where two would have
+ * one name. */
+void br_work_name_sources(struct br_work_source *source, size_t count);
 
 /* Numbers may be NaN: not known. */
 struct br_work_program {
@@ -50,8 +54,10 @@ struct br_work_program {
     enum br_axis axis;         /* along which it is refined alone; BR_AXES: there is none */
     struct br_estimate growth; /* the cost grows as the size to the power -growth */
     struct br_estimate tenth;  /* a tenth of the error costs so many times as much */
-    struct br_estimate needed; /* what the error `wanted` costs, if both orders stay, */
+    double wanted;             /* 1e-6, or the next power of ten that it does not reach */
+    struct br_estimate needed; /* what that costs, if both orders stay, */
     char at[64];               /* and its size, "n = 1024" */
+    double start;              /* of the program, part of each of its costs */
     char starts[BR_CELL_NAME]; /* up to this size the cost is mostly the start; "": nowhere */
     size_t points, failed;     /* runs with error and cost; without */
     char first[BR_CELL_NAME];  /* the first that failed, */
@@ -60,11 +66,9 @@ struct br_work_program {
 
 /* One quantity of all programs. */
 struct br_work {
-    char quantity[200];
-    const char *unit;             /* NULL: none is given; borrowed, as the next two */
-    const char *cost, *cost_unit; /* "processor time", "s"; "": it has none */
+    char quantity[200], cost[200]; /* "l2", "processor time" */
+    const char *unit, *cost_unit;  /* NULL: none is given; "s", or "": it has none; borrowed */
     bool is_time;
-    double wanted;                   /* 1e-6, or a power of ten that no program reaches */
     struct br_work_program *program; /* owned */
     struct br_work_point *point;     /* program after program, from coarse to fine; owned */
     size_t programs, points;

@@ -22,8 +22,9 @@ static void add_work(struct br_figure *f, const struct br_work *w)
              *w->cost_unit ? ", " : "", w->cost_unit);
     struct br_panel *panel = br_panel_add(f, label, "");
     panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "%.60s%s%.20s", br_quoted(text, MARKUP, &br_for_markup, w->quantity),
-           w->unit ? ", " : "", w->unit ? w->unit : "");
+    BR_SAY(panel->y_label, "error %.50s%s%.20s",
+           br_quoted(text, MARKUP, &br_for_markup, w->quantity), w->unit ? ", " : "",
+           w->unit ? w->unit : "");
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "front of all"), *others = NULL;
     for (size_t i = 0; i < w->points; i++) {
         if (w->point[i].front)

@@ -47,11 +47,11 @@ static void answer_digit(struct br_document *d, const struct br_work *w, bool se
 {
     const struct cheapest c = find_cheapest(w, target);
     const struct br_work_point *best = &w->point[c.best], *next = &w->point[c.next];
+    const char *tie = w->is_time ? ", alike by the clock" : ", equal";
     char power[TEXT], cost[TEXT], other[TEXT];
-    br_put_answer(d, "%s%s%s %s: %s, %s, %s", several ? w->quantity : "", several ? ": c" : "C",
-                  c.tied ? "heapest, by the clock alike, to" : "heapest to",
-                  power_text(target, power), w->program[best->program].name, best->label,
-                  cost_text(w, best->cost, cost));
+    br_put_answer(d, "%s%s to %s%s: %s, %s, %s", several ? w->quantity : "",
+                  several ? ": cheapest" : "Cheapest", power_text(target, power), c.tied ? tie : "",
+                  w->program[best->program].name, best->label, cost_text(w, best->cost, cost));
     if (c.next < w->points)
         br_put_more(d, "; %s: %s, %s%s%s.", c.tied ? "and" : "next", w->program[next->program].name,
                     c.tied ? next->label : "", c.tied ? ", " : "", cost_text(w, next->cost, other));
@@ -72,7 +72,6 @@ static void answer_digits(struct br_document *d, const struct br_work *w, size_t
 static void put_point(struct br_document *d, const struct br_work *w, size_t i, bool next)
 {
     const struct br_work_point *p = &w->point[i < w->points ? i : 0];
-    char text[TEXT];
     br_put_blank(d, i >= w->points);
     BR_PUT(d, br_text(w->program[p->program].name), .key = next ? "next" : "program");
     BR_PUT(d, br_text(p->label), .key = next ? "next_size" : "size", .heading = "size");
@@ -87,7 +86,6 @@ static void put_point(struct br_document *d, const struct br_work *w, size_t i, 
         BR_PUT(d, br_text(p->is_start ? "mostly start" : NULL), .key = "remark",
                .flags = BR_VARIES);
     br_put_blank(d, false);
-    (void)text;
 }
 
 static void put_digits(struct br_document *d, const struct br_work *w)
@@ -101,17 +99,26 @@ static void put_digits(struct br_document *d, const struct br_work *w)
         BR_PUT(d, br_number(target[i]), .key = "to_error", .heading = "to error", .format = "%.0e");
         put_point(d, w, c.best, false);
         put_point(d, w, c.next, true);
-        BR_PUT(d, br_text(c.tied ? "alike" : NULL), .key = "by_the_clock",
-               .heading = "by the clock", .flags = BR_VARIES);
+        BR_PUT(d,
+               br_text(!c.tied      ? NULL
+                       : w->is_time ? "alike by the clock"
+                                    : "equal"),
+               .key = "tie", .flags = BR_VARIES);
     }
 }
 
 /* ---- how costs grow, and what failed ---- */
 
+static const char *times_text(const struct br_estimate *e, char text[2 * TEXT])
+{
+    snprintf(text, 2 * TEXT, "%.3g [%.3g, %.3g]", e->value, e->low, e->high);
+    return text;
+}
+
 static void answer_program(struct br_document *d, const struct br_work *w,
                            const struct br_work_program *p)
 {
-    char text[2 * TEXT], cost[TEXT], power[TEXT];
+    char text[2 * TEXT], power[TEXT];
     const char *between = ":";
     if (isnan(p->growth.value) && isnan(p->tenth.value) && isnan(p->needed.value))
         return;
@@ -122,14 +129,14 @@ static void answer_program(struct br_document *d, const struct br_work *w,
         between = ",";
     }
     if (isfinite(p->tenth.value)) {
-        br_put_more(d, "%s a tenth of the error costs %.3g [%.3g, %.3g] times as much", between,
-                    p->tenth.value, p->tenth.low, p->tenth.high);
+        br_put_more(d, "%s a tenth of the error costs %s times as much", between,
+                    times_text(&p->tenth, text));
         between = ",";
     }
     if (isfinite(p->needed.value))
-        br_put_more(d, "%s %s would cost %s [%.2g, %.2g] (%s)", between,
-                    power_text(w->wanted, power), cost_text(w, p->needed.value, cost),
-                    p->needed.low, p->needed.high, p->at);
+        br_put_more(d, "%s %s would cost %s %s (%s)", between, power_text(p->wanted, power),
+                    br_interval_text(&p->needed, text, sizeof text),
+                    *w->cost_unit ? w->cost_unit : w->cost, p->at);
     br_put_more(d, ".");
 }
 
@@ -144,9 +151,9 @@ static void put_growth(struct br_document *d, const struct br_work *w)
                .flags = BR_VARIES);
         BR_PUT_ESTIMATE(d, &p->growth, br_order_text(&p->growth, text, TEXT), .key = "growth",
                         .heading = "cost grows like 1/size to the power");
-        BR_PUT_ESTIMATE(d, &p->tenth, br_interval_text(&p->tenth, text, sizeof text),
-                        .key = "tenth", .heading = "a tenth of the error costs, times");
-        BR_PUT(d, br_number(w->wanted), .key = "wanted", .format = "%.0e");
+        BR_PUT_ESTIMATE(d, &p->tenth, times_text(&p->tenth, text), .key = "tenth",
+                        .heading = "a tenth of the error costs, times");
+        BR_PUT(d, br_number(p->wanted), .key = "wanted", .format = "%.0e");
         BR_PUT_ESTIMATE(d, &p->needed, br_interval_text(&p->needed, text, sizeof text),
                         .key = "needed", .heading = "which would cost", .unit = w->cost_unit);
         BR_PUT(d, br_text(*p->at ? p->at : NULL), .key = "at");
@@ -157,13 +164,14 @@ static void put_growth(struct br_document *d, const struct br_work *w)
 
 static void say_troubles(struct br_document *d, const struct br_work *w)
 {
+    char cost[TEXT];
     for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
         if (p->failed)
             br_put_answer(d, "%s: %zu of %zu runs without a result, the first at %s: %s.", p->name,
                           p->failed, p->failed + p->points, p->first, p->failure);
         if (*p->starts)
-            br_put_answer(d, "%s: up to %s %s is mostly the start of the program.", p->name,
-                          p->starts, w->cost);
+            br_put_answer(d, "%s: up to %s its %s is mostly its start, %s.", p->name, p->starts,
+                          w->cost, cost_text(w, p->start, cost));
     }
 }
 
@@ -199,10 +207,12 @@ void br_report_work(const struct br_work *works, size_t count, const char *machi
     br_put_table(d, "runs", "All runs", BR_FILES_ONLY | BR_MAIN);
     for (size_t i = 0; i < count; i++)
         put_runs(d, &works[i]);
-    if (works->is_time)
+    br_hide_fact(d, br_text(works->cost), NULL, "cost");
+    br_hide_fact(d, br_text(works->cost_unit), NULL, "cost_unit");
+    if (machine)
         br_put_note(
             d,
-            "Times of programs that were run here: medians of runs after one that warms up, "
+            "Times of programs that were run: medians of runs after one that warms up, "
             "until they are known to 5 %% or have taken 10 s, one run at a time, without the "
             "time of a process that does nothing. On %s.",
             machine);

@@ -22,7 +22,8 @@ void br_report_orders(const struct br_orders *orders, const struct br_estimate *
                       const char *caption, struct br_document *d);
 
 /* What a digit costs, of each quantity: the cheapest program to each power of ten, how costs grow,
- * what failed, and all runs. machine: that of the runs. Without provenance. */
+ * what failed, and all runs. machine: that of programs that were run; NULL:
+ * none was. Without provenance. */
 void br_report_work(const struct br_work *works, size_t count, const char *machine,
                     struct br_document *d);
 

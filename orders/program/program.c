@@ -386,8 +386,6 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         br_numbers_clear(numbers);
         return err->status;
     }
-    numbers->start[0] = j.start.seconds;
-    numbers->start[1] = j.start.wall;
     finish_rows(program, numbers);
     return BR_OK;
 }

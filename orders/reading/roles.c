@@ -257,6 +257,26 @@ static void find_deviations(struct br_roles *r)
         }
 }
 
+/* For a trade: the column of costs is neither an error nor, beside another one, a size. */
+static void leave_costs(struct br_roles *r)
+{
+    const char *cost = r->wishes->cost;
+    double factor;
+    for (size_t i = 0; i < r->columns && cost; i++) {
+        struct br_role_column *c = &r->column[i];
+        bool leaves = c->name && strcmp(c->name, cost) == 0 && c->named < BR_USUAL_NAME;
+        for (size_t k = 0; k < r->columns && c->name && !c->by_hand; k++)
+            for (int s = 0; s < BR_RESOLUTIONS && k != i; s++)
+                leaves |= br_cost_of(c->name, c->unit, &factor) == BR_COST_DOFS &&
+                          !br_resolution_columns[s].is_volume &&
+                          r->column[k].odds[s] >= BR_USUAL_NAME;
+        if (leaves) {
+            c->by_hand = true;
+            c->why = "the cost";
+        }
+    }
+}
+
 static enum br_status take_names(struct br_roles *r, struct br_error *err)
 {
     const char *item;
@@ -279,12 +299,10 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
             !c->stated && c->named < BR_USUAL_NAME)
             c->role = BR_ROLE_ERROR;
         c->is_value = br_lists(r->wishes->values, c->name);
-        if (c->name && r->wishes->cost && strcmp(c->name, r->wishes->cost) == 0 &&
-            c->named < BR_USUAL_NAME)
-            c->why = "the cost";
         gci |= c->name && strcasestr(c->name, "gci");
     }
     find_deviations(r);
+    leave_costs(r);
     for (size_t i = 0; i < r->columns && gci; i++) /* r is the ratio of two sizes, p one order */
         if (r->column[i].name && !r->column[i].name[1] && strchr("rp", *r->column[i].name) &&
             !r->column[i].by_hand)
