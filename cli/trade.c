@@ -17,7 +17,7 @@ struct run {
     struct br_study_file *file;    /* owned */
     struct br_work_source *source; /* files, then others; owned */
     size_t files, sources;
-    struct br_work *works; /* owned */
+    struct br_work_precision *works; /* owned */
     size_t count;
 };
 

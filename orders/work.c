@@ -327,7 +327,7 @@ static enum br_status refuse_errors(const struct members *all, struct br_error *
 }
 
 /* Whether all measure an error; two units refuse. */
-static bool all_measure(struct members *all, const char *name, struct br_work *w,
+static bool all_measure(struct members *all, const char *name, struct br_work_precision *w,
                         struct br_error *err)
 {
     w->unit = NULL;
@@ -359,7 +359,7 @@ static enum br_axis line_of(const struct br_numbers *n)
     return BR_AXES;
 }
 
-static void take_points(struct br_work *w, const struct member *m)
+static void take_points(struct br_work_precision *w, const struct member *m)
 {
     static const double least = 4; /* a cost is known to a quarter */
     const struct br_numbers *n = m->source->numbers;
@@ -411,7 +411,7 @@ static void find_starts(struct br_work_point *p, size_t count, double *start)
             *start = *start > 0 ? fmin(*start, p[i].cost) : p[i].cost;
 }
 
-static enum br_status check_growth(const struct br_work *w, const struct member *m,
+static enum br_status check_growth(const struct br_work_precision *w, const struct member *m,
                                    const struct br_work_point *p, size_t count,
                                    struct br_error *err)
 {
@@ -449,7 +449,7 @@ static enum br_status find_order(const struct br_work_program *program,
     if (!at)
         return br_no_memory(err, "the costs");
     for (size_t i = 0; i < count; i++) {
-        const bool small = p[i].is_start || p[i].cost <= program->start;
+        const bool small = p[i].is_start || p[i].cost - program->start <= 2 * p[i].half;
         if (what == ERROR_OVER_COST ? small || !p[i].own
                                     : isnan(p[i].z) || (small && what == COST_OVER_SIZE))
             continue;
@@ -492,8 +492,8 @@ static void foresee(struct br_work_program *p, const struct br_numbers *n,
     snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
 }
 
-static enum br_status study_program(struct br_work *w, size_t program, const struct member *m,
-                                    struct br_error *err)
+static enum br_status study_program(struct br_work_precision *w, size_t program,
+                                    const struct member *m, struct br_error *err)
 {
     struct br_work_program *p = &w->program[program];
     struct br_work_point *at = w->point;
@@ -527,7 +527,8 @@ static const char *name_cost(const struct members *all)
     return kind == BR_COSTS ? all->cost : names[kind];
 }
 
-static enum br_status fill(struct br_work *w, const struct members *all, struct br_error *err)
+static enum br_status fill(struct br_work_precision *w, const struct members *all,
+                           struct br_error *err)
 {
     size_t rows = 0;
     for (size_t i = 0; i < all->count; i++)
@@ -562,7 +563,7 @@ static enum br_status fill(struct br_work *w, const struct members *all, struct 
 }
 
 /* One for each error of the first program that all measure. */
-static enum br_status find_all(struct members *all, struct br_work *works, size_t *count,
+static enum br_status find_all(struct members *all, struct br_work_precision *works, size_t *count,
                                struct br_error *err)
 {
     const struct member *first = all->list;
@@ -576,7 +577,7 @@ static enum br_status find_all(struct members *all, struct br_work *works, size_
 }
 
 enum br_status br_work_find(const struct br_work_source *source, size_t sources, const char *cost,
-                            struct br_work **works, size_t *count, struct br_error *err)
+                            struct br_work_precision **works, size_t *count, struct br_error *err)
 {
     struct members all = {.cost = cost};
     *count = 0;
@@ -588,7 +589,7 @@ enum br_status br_work_find(const struct br_work_source *source, size_t sources,
     return failed ? err->status : BR_OK;
 }
 
-void br_work_clear(struct br_work *works, size_t count)
+void br_work_clear(struct br_work_precision *works, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         free(works[i].program);
@@ -597,7 +598,7 @@ void br_work_clear(struct br_work *works, size_t count)
     free(works);
 }
 
-size_t br_work_targets(const struct br_work *w, double target[BR_WORK_DIGITS])
+size_t br_work_targets(const struct br_work_precision *w, double target[BR_WORK_DIGITS])
 {
     double most = 0, least = INFINITY;
     for (size_t i = 0; i < w->points; i++) {

@@ -65,7 +65,7 @@ struct br_work_program {
 };
 
 /* One quantity of all programs. */
-struct br_work {
+struct br_work_precision {
     char quantity[200], cost[200]; /* "l2", "processor time" */
     const char *unit, *cost_unit;  /* NULL: none is given; "s", or "": it has none; borrowed */
     bool is_time;
@@ -80,11 +80,11 @@ struct br_work {
  * programs have no error or no cost in common, and where costs fall with finer sizes; with
  * BR_NOT_FINITE where no run has both. */
 enum br_status br_work_find(const struct br_work_source *source, size_t sources, const char *cost,
-                            struct br_work **works, size_t *count, struct br_error *err);
-void br_work_clear(struct br_work *works, size_t count); /* accepts NULL */
+                            struct br_work_precision **works, size_t *count, struct br_error *err);
+void br_work_clear(struct br_work_precision *works, size_t count); /* accepts NULL */
 
 /* Powers of ten from the largest error to the smallest that is reached (out); returns how many. */
 enum { BR_WORK_DIGITS = 20 };
-size_t br_work_targets(const struct br_work *work, double target[BR_WORK_DIGITS]);
+size_t br_work_targets(const struct br_work_precision *work, double target[BR_WORK_DIGITS]);
 
 #endif

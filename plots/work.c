@@ -15,7 +15,7 @@ static void add_point(struct br_series *s, const struct br_work_point *p)
 
 /* The runs that another one of their program beats; the front of all, behind; and the stairs of
  * each program's own best. */
-static void add_work(struct br_figure *f, const struct br_work *w)
+static void add_work(struct br_figure *f, const struct br_work_precision *w)
 {
     char text[MARKUP], label[96];
     snprintf(label, sizeof label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
@@ -46,7 +46,8 @@ static void add_work(struct br_figure *f, const struct br_work *w)
     }
 }
 
-struct br_figure br_work_draw(const struct br_work *works, size_t count, const char *caption)
+struct br_figure br_work_draw(const struct br_work_precision *works, size_t count,
+                              const char *caption)
 {
     struct br_figure f = {0};
     BR_SAY(f.stem, "trade");

@@ -11,7 +11,7 @@
 enum { TEXT = 64 };
 
 /* "0.12 s"; a cost without a unit is a number of something: "4225 dofs". */
-static const char *cost_text(const struct br_work *w, double cost, char text[TEXT])
+static const char *cost_text(const struct br_work_precision *w, double cost, char text[TEXT])
 {
     snprintf(text, TEXT, *w->cost_unit ? "%.3g %.30s" : "%.8g %.30s", cost,
              *w->cost_unit ? w->cost_unit : w->cost);
@@ -33,7 +33,7 @@ struct cheapest {
     bool tied;
 };
 
-static struct cheapest find_cheapest(const struct br_work *w, double target)
+static struct cheapest find_cheapest(const struct br_work_precision *w, double target)
 {
     struct cheapest c = {.best = br_work_cheapest(w->point, w->points, target, SIZE_MAX, SIZE_MAX)};
     const struct br_work_point *p = w->point;
@@ -42,7 +42,7 @@ static struct cheapest find_cheapest(const struct br_work *w, double target)
     return c;
 }
 
-static void answer_digit(struct br_document *d, const struct br_work *w, bool several,
+static void answer_digit(struct br_document *d, const struct br_work_precision *w, bool several,
                          double target)
 {
     const struct cheapest c = find_cheapest(w, target);
@@ -60,7 +60,7 @@ static void answer_digit(struct br_document *d, const struct br_work *w, bool se
 }
 
 /* The digits from the last one back, every second or third where there are many. */
-static void answer_digits(struct br_document *d, const struct br_work *w, size_t works)
+static void answer_digits(struct br_document *d, const struct br_work_precision *w, size_t works)
 {
     const size_t most = works > 4 ? 1 : 4 / works;
     double target[BR_WORK_DIGITS];
@@ -69,7 +69,7 @@ static void answer_digits(struct br_document *d, const struct br_work *w, size_t
         answer_digit(d, w, works > 1, target[i]);
 }
 
-static void put_point(struct br_document *d, const struct br_work *w, size_t i, bool next)
+static void put_point(struct br_document *d, const struct br_work_precision *w, size_t i, bool next)
 {
     const struct br_work_point *p = &w->point[i < w->points ? i : 0];
     br_put_blank(d, i >= w->points);
@@ -88,7 +88,7 @@ static void put_point(struct br_document *d, const struct br_work *w, size_t i, 
     br_put_blank(d, false);
 }
 
-static void put_digits(struct br_document *d, const struct br_work *w)
+static void put_digits(struct br_document *d, const struct br_work_precision *w)
 {
     double target[BR_WORK_DIGITS];
     const size_t count = br_work_targets(w, target);
@@ -115,7 +115,7 @@ static const char *times_text(const struct br_estimate *e, char text[2 * TEXT])
     return text;
 }
 
-static void answer_program(struct br_document *d, const struct br_work *w,
+static void answer_program(struct br_document *d, const struct br_work_precision *w,
                            const struct br_work_program *p)
 {
     char text[2 * TEXT], power[TEXT];
@@ -140,7 +140,7 @@ static void answer_program(struct br_document *d, const struct br_work *w,
     br_put_more(d, ".");
 }
 
-static void put_growth(struct br_document *d, const struct br_work *w)
+static void put_growth(struct br_document *d, const struct br_work_precision *w)
 {
     char text[2 * TEXT];
     for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
@@ -162,7 +162,7 @@ static void put_growth(struct br_document *d, const struct br_work *w)
     }
 }
 
-static void say_troubles(struct br_document *d, const struct br_work *w)
+static void say_troubles(struct br_document *d, const struct br_work_precision *w)
 {
     char cost[TEXT];
     for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
@@ -175,7 +175,7 @@ static void say_troubles(struct br_document *d, const struct br_work *w)
     }
 }
 
-static void put_runs(struct br_document *d, const struct br_work *w)
+static void put_runs(struct br_document *d, const struct br_work_precision *w)
 {
     for (size_t i = 0; i < w->points; i++) {
         br_put_row(d);
@@ -187,7 +187,7 @@ static void put_runs(struct br_document *d, const struct br_work *w)
     }
 }
 
-void br_report_work(const struct br_work *works, size_t count, const char *machine,
+void br_report_work(const struct br_work_precision *works, size_t count, const char *machine,
                     struct br_document *d)
 {
     char title[200];

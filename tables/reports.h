@@ -12,7 +12,7 @@ struct br_comparison;
 struct br_estimate;
 struct br_old_check;
 struct br_orders;
-struct br_work;
+struct br_work_precision;
 
 /* ---- orders ---- */
 
@@ -24,7 +24,7 @@ void br_report_orders(const struct br_orders *orders, const struct br_estimate *
 /* What a digit costs, of each quantity: the cheapest program to each power of ten, how costs grow,
  * what failed, and all runs. machine: that of programs that were run; NULL:
  * none was. Without provenance. */
-void br_report_work(const struct br_work *works, size_t count, const char *machine,
+void br_report_work(const struct br_work_precision *works, size_t count, const char *machine,
                     struct br_document *d);
 
 /* ---- check ---- */

@@ -28,7 +28,7 @@ struct beamrate_trade {
     struct br_numbers *numbers; /* count, owned, as all below */
     struct br_work_source *source;
     size_t count;
-    struct br_work *works;
+    struct br_work_precision *works;
     size_t quantities;
     char *report;
 };

@@ -70,7 +70,7 @@ static void pass_row(struct br_record *r, void *self)
 
 /* ---- times of a trade ---- */
 
-enum { LEAST_RUNS = 6, MOST_RUNS = 60 };                       /* six hold the median with 97 % */
+enum { LEAST_RUNS = 6, MOST_RUNS = 30 };                       /* six hold the median with 97 % */
 static const double longest = 10;                              /* all runs of a cell, s */
 static const double known = 0.05, scatter = 0.1, least = 1e-4; /* s: less is not known */
 
@@ -128,6 +128,15 @@ static enum br_status time_runs(const struct br_orders_request *program,
     return BR_OK;
 }
 
+/* Whether runs are repeated: not where the cost is a number that they print. */
+static bool is_timed(const struct br_orders_request *program)
+{
+    bool timed = program->cost;
+    for (size_t i = 0; i < program->readings && timed; i++)
+        timed = strcmp(program->reading[i].name, program->cost) != 0;
+    return timed;
+}
+
 /* The times of a process that does nothing: they are taken away from all others. */
 static enum br_status time_start(const struct br_orders_request *program,
                                  struct br_numbers_row *row, struct br_error *err)
@@ -135,7 +144,8 @@ static enum br_status time_start(const struct br_orders_request *program,
     static char path[] = "/bin/true", *word[] = {path, NULL};
     const struct br_command_words words = {.word = word, .program = path};
     *row = (struct br_numbers_row){.seconds = 0};
-    return program->cost && access(path, X_OK) == 0 ? time_runs(program, &words, row, err) : BR_OK;
+    return is_timed(program) && access(path, X_OK) == 0 ? time_runs(program, &words, row, err)
+                                                        : BR_OK;
 }
 
 static void take_start_away(const struct br_numbers_row *start, struct br_numbers_row *row)
@@ -155,7 +165,7 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
 {
     struct row of = {&j->numbers->row[i], j->numbers->quantities};
     of.row->kept = br_kept_take(j->kept, text, pass_row, &of);
-    if (!of.row->kept && !br_run_command(j->program, words, of.row, err) && j->program->cost &&
+    if (!of.row->kept && !br_run_command(j->program, words, of.row, err) && is_timed(j->program) &&
         !of.row->failure && !time_runs(j->program, words, of.row, err))
         take_start_away(&j->start, of.row);
     if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
