@@ -7,9 +7,6 @@
 BR_WORDS(format, br_document_formats)
 const struct br_words br_format_words = {format_name, format_title, NULL};
 
-/* Commands that march. */
-enum { MARCHES = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN };
-
 #define WHOLE(low, high) BR_RANGE(low, high, true)
 #define BETWEEN(low, high) BR_RANGE(low, high, false)
 #define OWN BR_OWN
@@ -121,7 +118,7 @@ static const struct br_option rows[] = {
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
      BR_TAKES_DIR,
-     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
+     .commands = BR_FOR_MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      OWN({BR_FOR_TABLES, .standard = "results", .help = folder},
          {BR_FOR_STUDY, .standard = "results/study", .help = folder},
          {BR_FOR_TRADE, .standard = "trade", .help = folder},
@@ -141,7 +138,7 @@ static const struct br_option rows[] = {
      .more = "The results are the same for any number, to the bit."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
      BR_TAKES_FLAG,
-     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
+     .commands = BR_FOR_MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -326,6 +326,7 @@ TEST(test_forecast)
                                                           .tolerances = 2});
     double held = 0, dearest = 0;
     t->request.threads = 1;
+    t->request.pace = 1; /* of this machine, it may change from one forecast to the next */
     MUST(br_trade_foresee(t, &err));
     assert_int_equal(t->forecast.planned, t->count);
     assert_int_equal(t->forecast.left, 0);
@@ -362,10 +363,11 @@ TEST(test_judge_is_forecast)
                                {.named = &pair[1], .at = {10, 100000}}};
     struct br_trial_request request = br_trial_request_default(&scene);
     struct br_trial_forecast forecast;
+    request.pace = 1;
     MUST(br_trials_foresee(trial, 2, &request, &forecast, &err));
     const double beside = trial[1].foreseen;
     assert_true(trial[0].foreseen > 1.01 * beside);
-    request.seconds = 0.5 * forecast.seconds; /* the pace is measured anew */
+    request.seconds = 0.5 * forecast.seconds;
     MUST(br_trials_foresee(trial, 2, &request, &forecast, &err));
     assert_int_equal(trial[0].end, BR_TRIAL_LEFT);
     CLOSE(trial[1].foreseen, trial[0].foreseen, 1e-12 * beside);

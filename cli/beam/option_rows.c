@@ -39,10 +39,6 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
 
 _Static_assert(BR_OPT_METHOD + BR_METHOD_FIELDS == BR_OPTIONS, "an option for each field");
 
-enum {
-    MARCHES = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN
-}; /* who takes the method's options */
-
 #define WHOLE(low, high) BR_RANGE(low, high, true)
 #define BETWEEN(low, high) BR_RANGE(low, high, false)
 #define OWN BR_OWN
@@ -171,7 +167,7 @@ size_t br_beam_add_options(const struct br_command *command, struct br_option ro
                            size_t count)
 {
     count = br_options_add(rows, ROWS, command, row, count);
-    for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
+    for (size_t i = 0; i < BR_METHOD_FIELDS && BR_FOR_MARCHES & command->bit; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         if (!f->argument)
             continue;
@@ -181,7 +177,7 @@ size_t br_beam_add_options(const struct br_command *command, struct br_option ro
                                           .help = f->help,
                                           .kind = BR_TAKES_METHOD,
                                           .words = f->words,
-                                          .commands = MARCHES,
+                                          .commands = BR_FOR_MARCHES,
                                           .more = f->more};
     }
     return count;

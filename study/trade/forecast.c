@@ -36,6 +36,9 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
     struct br_trial_request little = *r;
     struct br_trial probe = trial[i];
     struct br_trial_cost cost;
+    pace[i] = r->pace;
+    if (r->pace > 0)
+        return BR_OK;
     for (size_t j = 0; j < i; j++)
         if (trial[j].tolerance == trial[i].tolerance &&
             (trial[i].tolerance == 0 || trial[j].named == trial[i].named)) {

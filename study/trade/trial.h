@@ -64,6 +64,7 @@ struct br_trial_request {
     double repeat_seconds;              /* no more repeats after this time, s */
     double time_limit;                  /* of one march with its set-up, s; 0: none */
     double seconds;                     /* of all trials, about; 0: no limit */
+    double pace;                        /* s, of a second of br_trial_work; 0: a few steps tell */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
 };
