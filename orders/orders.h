@@ -260,10 +260,6 @@ bool br_orders_costs_differ(const struct br_orders *orders);
 enum br_status br_orders_growth(const struct br_orders *orders, enum br_axis axis,
                                 struct br_estimate *growth, struct br_error *err);
 
-/* The cheapest run whose error in a quantity is at most this; NULL: none, or no run was timed. */
-const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, size_t quantity,
-                                                double error);
-
 /* ---- verdicts ---- */
 
 struct br_order_expectation {

@@ -551,7 +551,7 @@ const struct br_command br_command_trade = {
     .example =
         {"beamrate trade example2 --methods euler+lagged,euler+implicit -n 25,100 -k 0.1,0.01",
          "beamrate trade example1 example3 --methods bdf2,adaptive -n 50 -k 0.05,0.01 --time-limit 2",
-         "beamrate trade example2 --error 1e-3", "beamrate trade fd.yaml fem.yaml --trust",
+         "beamrate trade example2 --error 1e-3", "beamrate trade fd.csv sparse4.csv",
          "beamrate trade example2 --split --methods euler+lagged,euler+implicit -k 0.1,0.01"},
     .least_words = 1,
     .most_words = BR_MOST_WORDS,
