@@ -56,7 +56,6 @@ struct br_numbers_row {
     size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
-    double half[2]; /* of the width of the 95 % intervals of both times; 0: not known */
     bool kept;                   /* whether its numbers were kept from an earlier run */
     char *failure;               /* why it has no numbers; NULL: it has; owned */
 };

@@ -96,31 +96,30 @@ void br_work_name_sources(struct br_work_source *s, size_t count)
     }
 }
 
-/* Where the costs of a program stand. */
-struct place {
-    enum { NOWHERE, IN_COLUMN, IN_SECONDS, IN_WALL, IN_BYTES, IN_SIZE, SEVERAL } in;
-    size_t column;
+/* A program: the columns of its error and of its cost. */
+struct member {
+    const struct br_work_source *source;
+    const char *of;            /* " [method = P1]" */
+    size_t error, cost, costs; /* costs: how many columns may be the cost */
     enum br_cost kind;
     double factor;
     const char *unit;
 };
 
-struct member {
-    const struct br_work_source *source;
-    const char *of; /* " [method = P1]" */
-    size_t error;   /* a quantity */
-    struct place cost;
+struct members {
+    struct member *list; /* owned */
+    size_t count;
+    const char *cost; /* of --cost */
 };
 
 enum { NAME = 200 };
-static const char *const cost_units[BR_COSTS + 1] = {"s", "s", "s", "", "", "MB", ""};
 
 static const char *case_of(const struct br_quantity *q)
 {
     return q->case_at ? q->name + q->case_at : "";
 }
 
-/* Column i, if it is of this program: its name without the case (out). */
+/* Whether column i is of this program; its name without the case (out). */
 static bool has(const struct member *m, size_t i, char name[NAME])
 {
     const struct br_quantity *q = &m->source->numbers->quantity[i];
@@ -141,84 +140,78 @@ static size_t find_error(const struct member *m, const char *name, const char *c
     return SIZE_MAX;
 }
 
-static bool is_timed(const struct br_numbers *n)
+/* Takes the column of that name, or, where it is NULL, those of that kind. */
+static void find_cost(struct member *m, const char *name, enum br_cost kind)
 {
-    bool timed = false;
-    for (size_t i = 0; i < n->rows; i++)
-        timed |= isfinite(n->row[i].seconds);
-    return timed;
-}
-
-/* The column of costs of a name. */
-static struct place find_named(const struct member *m, const char *name)
-{
+    static const char *const units[BR_COSTS + 1] = {"s", "s", "s", "", "", "MB", NULL};
     const struct br_numbers *n = m->source->numbers;
-    struct place p = {.in = NOWHERE};
     char text[NAME];
-    for (size_t i = 0; i < n->quantities + n->costs && !p.in; i++)
-        if (has(m, i, text) && strcmp(text, name) == 0) {
-            p = (struct place){.in = IN_COLUMN, .column = i};
-            p.kind = br_cost_of(text, n->quantity[i].unit, &p.factor);
-            p.unit = p.kind != BR_COSTS    ? cost_units[p.kind]
-                     : n->quantity[i].unit ? n->quantity[i].unit
-                                           : "";
+    for (size_t i = 0; i < n->quantities + n->costs && !(name && m->costs); i++) {
+        const char *unit = n->quantity[i].unit;
+        double factor;
+        const enum br_cost is = has(m, i, text) ? br_cost_of(text, unit, &factor) : BR_COSTS;
+        if (*text && strcmp(case_of(&n->quantity[i]), m->of) == 0 &&
+            (name ? strcmp(text, name) == 0 : is == kind && is != BR_COSTS)) {
+            m->costs++;
+            m->cost = i;
+            m->kind = is;
+            m->factor = is == BR_COST_MEMORY ? 1e-6 * factor : factor;
+            m->unit = units[is] ? units[is] : unit ? unit : "";
         }
-    return p;
+    }
 }
 
-/* The costs of a kind: of runs as they were measured; a column that says which time it has goes
- * before one that does not. */
-static struct place find_kind(const struct member *m, enum br_cost kind)
+/* The column of a name; else those of a kind, before which a time goes that does not say which. */
+static bool have_cost(struct members *all, const char *name, enum br_cost kind)
 {
-    const struct br_numbers *n = m->source->numbers;
-    const bool timed = is_timed(n), time = kind <= BR_COST_TIME;
-    const struct br_resolution_column *size = n->column[BR_AXIS_SPACE];
-    struct place p = {.in = NOWHERE, .kind = kind, .factor = 1, .unit = cost_units[kind]};
-    char text[NAME];
-    if (timed && (time || kind == BR_COST_MEMORY))
-        p.in = kind == BR_COST_WALL ? IN_WALL : time ? IN_SECONDS : IN_BYTES;
-    else if (kind == BR_COST_DOFS && size && strcmp(size->name, "dofs") == 0)
-        p.in = IN_SIZE;
-    for (int pass = 0; pass < (time ? 2 : 1) && !p.in; pass++)
-        for (size_t i = 0; i < n->quantities + n->costs; i++) {
-            double factor;
-            if (!has(m, i, text) ||
-                br_cost_of(text, n->quantity[i].unit, &factor) != (pass ? BR_COST_TIME : kind))
-                continue;
-            p.in = p.in ? SEVERAL : IN_COLUMN;
-            p.column = i;
-            p.factor = factor;
-            p.kind = pass ? BR_COST_TIME : kind;
-        }
-    return p;
+    bool have = true;
+    for (struct member *m = all->list; m < all->list + all->count; m++) {
+        m->costs = 0;
+        if (name)
+            find_cost(m, name, BR_COSTS);
+        if (!m->costs)
+            find_cost(m, NULL, kind);
+        if (!m->costs && kind <= BR_COST_TIME)
+            find_cost(m, NULL, kind == BR_COST_TIME ? BR_COST_CPU : BR_COST_TIME);
+        have &= m->costs > 0;
+    }
+    return have;
 }
 
-static double cost_at(const struct member *m, const struct br_numbers_row *row, double *half)
+static enum br_status choose_cost(struct members *all, struct br_error *err)
 {
-    static const double scatter = 0.1; /* of a clock that was read once */
-    const struct place *p = &m->cost;
-    const double number = p->in == IN_SECONDS ? row->seconds
-                          : p->in == IN_WALL  ? row->wall
-                          : p->in == IN_BYTES ? row->bytes
-                          : p->in == IN_SIZE  ? row->given[BR_AXIS_SPACE]
-                                              : row->number[p->column];
-    const double cost = number * p->factor * (p->kind == BR_COST_MEMORY ? 1e-6 : 1);
-    const double deviation = p->in == IN_COLUMN ? row->deviation[p->column] : (double)NAN;
-    *half = isfinite(deviation)                       ? 2 * deviation * p->factor
-            : p->in == IN_SECONDS || p->in == IN_WALL ? row->half[p->in == IN_WALL]
-                                                      : 0;
-    if (p->kind <= BR_COST_TIME && !(*half > 0))
-        *half = scatter * cost;
-    return cost > 0 ? cost : (double)NAN;
+    static const enum br_cost usual[] = {BR_COST_CPU, BR_COST_WALL, BR_COST_DOFS,
+                                         BR_COST_ITERATIONS, BR_COST_MEMORY};
+    const bool named = *all->cost;
+    double factor;
+    bool found = named && have_cost(all, all->cost, br_cost_of(all->cost, NULL, &factor));
+    for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
+        found = have_cost(all, NULL, usual[i]);
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        const struct br_numbers *n = m->source->numbers;
+        if (named ? !m->costs : !n->costs)
+            return br_fail(err, BR_BAD_INPUT,
+                           named ? "%s%s: --cost: found no cost '%s'"
+                                 : "%s%s: found no column of a cost%s, expected one like seconds, "
+                                   "cpu, wall, dofs, iterations or memory; --cost NAME names "
+                                   "another one",
+                           m->source->path, m->of, all->cost);
+        if (found && m->costs > 1)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: several columns may be the cost, one of them is %s: --cost NAME "
+                           "chooses one",
+                           m->source->path, n->quantity[m->cost].name);
+        if (found && strcmp(m->unit, all->list->unit) != 0)
+            return br_fail(err, BR_BAD_INPUT, "%s: %s has the unit '%s', that of %s has '%s'",
+                           m->source->path, all->cost, m->unit, all->list->source->path,
+                           all->list->unit);
+    }
+    return found ? BR_OK
+                 : br_fail(err, BR_BAD_INPUT,
+                           "found no cost that all programs have: --cost NAME names one");
 }
 
 /* ---- what all have ---- */
-
-struct members {
-    struct member *list; /* owned */
-    size_t count;
-    const char *cost; /* of --cost */
-};
 
 static void say_name(const struct member *m, char *text, size_t size)
 {
@@ -247,62 +240,6 @@ static enum br_status list_members(const struct br_work_source *source, size_t s
                                "two programs are called '%s', expected files of different names",
                                source[s].name);
         }
-    return BR_OK;
-}
-
-/* Sets the costs of all to one kind, or to the column of a name, else its kind. */
-static bool have_kind(struct members *all, enum br_cost kind, const char *name)
-{
-    bool have = true;
-    for (struct member *m = all->list; m < all->list + all->count; m++) {
-        m->cost = name ? find_named(m, name) : (struct place){.in = NOWHERE};
-        if (!m->cost.in && kind != BR_COSTS)
-            m->cost = find_kind(m, kind);
-        have &= m->cost.in != NOWHERE;
-    }
-    return have;
-}
-
-static enum br_status refuse_costs(const struct members *all, struct br_error *err)
-{
-    for (const struct member *m = all->list; m < all->list + all->count; m++) {
-        bool any = *all->cost && m->cost.in;
-        for (enum br_cost kind = 0; kind < BR_COSTS && !*all->cost; kind++)
-            any |= find_kind(m, kind).in != NOWHERE;
-        if (!any)
-            return br_fail(err, BR_BAD_INPUT,
-                           *all->cost ? "%s%s: --cost: found no cost '%s'"
-                                      : "%s%s: found no column of a cost%s, expected one like "
-                                        "seconds, cpu, wall, dofs, iterations or memory; --cost "
-                                        "NAME names another one",
-                           m->source->path, m->of, all->cost);
-    }
-    return br_fail(err, BR_BAD_INPUT,
-                   "found no cost that all programs have: --cost NAME names one");
-}
-
-static enum br_status choose_cost(struct members *all, struct br_error *err)
-{
-    static const enum br_cost usual[] = {BR_COST_CPU, BR_COST_WALL, BR_COST_DOFS,
-                                         BR_COST_ITERATIONS, BR_COST_MEMORY};
-    const bool named = *all->cost;
-    double factor;
-    bool found = named && have_kind(all, br_cost_of(all->cost, NULL, &factor), all->cost);
-    for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
-        found = have_kind(all, usual[i], NULL);
-    if (!found)
-        return refuse_costs(all, err);
-    for (const struct member *m = all->list; m < all->list + all->count; m++) {
-        if (m->cost.in == SEVERAL)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: several columns may be the cost, one of them is %s: --cost NAME "
-                           "chooses one",
-                           m->source->path, m->source->numbers->quantity[m->cost.column].name);
-        if (strcmp(m->cost.unit, all->list->cost.unit) != 0)
-            return br_fail(err, BR_BAD_INPUT, "%s: %s has the unit '%s', that of %s has '%s'",
-                           m->source->path, all->cost, m->cost.unit, all->list->source->path,
-                           all->list->cost.unit);
-    }
     return BR_OK;
 }
 
@@ -346,6 +283,15 @@ static bool all_measure(struct members *all, const char *name, struct br_work_pr
 
 /* ---- points ---- */
 
+static double cost_at(const struct member *m, const struct br_numbers_row *row, double *half)
+{
+    static const double scatter = 0.1; /* of a clock that was read once */
+    const double cost = row->number[m->cost] * m->factor;
+    const double deviation = row->deviation[m->cost] * m->factor;
+    *half = isfinite(deviation) ? 2 * deviation : m->kind <= BR_COST_TIME ? scatter * cost : 0;
+    return cost > 0 ? cost : (double)NAN;
+}
+
 /* The axis along which the rows are one line; BR_AXES: they are none. */
 static enum br_axis line_of(const struct br_numbers *n)
 {
@@ -373,19 +319,19 @@ static void take_points(struct br_work_precision *w, const struct member *m)
         *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
         at->cost = cost_at(m, row, &at->half);
         at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
-        at->is_start = (m->cost.in == IN_SECONDS || m->cost.in == IN_WALL) &&
-                       at->cost < least * at->half; /* as much as the start scatters */
+        at->is_start = m->kind <= BR_COST_TIME && at->cost < least * at->half;
         br_numbers_name_cell(n, row, at->label);
         if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
             w->points++;
             p->points++;
         } else if (!p->failed++) {
             strcpy(p->first, at->label);
-            p->failure = row->failure             ? row->failure
-                         : isnan(at->error)       ? "no error"
-                         : !(at->error > 0)       ? "an error of 0"
-                         : m->cost.in == IN_BYTES ? "no peak memory is known, as of a small program"
-                                                  : "no cost above 0";
+            p->failure = row->failure       ? row->failure
+                         : isnan(at->error) ? "no error"
+                         : !(at->error > 0) ? "an error of 0"
+                         : m->kind == BR_COST_MEMORY
+                             ? "no peak memory is known, as of a small program"
+                             : "no cost above 0";
         }
     }
     w->programs++;
@@ -521,9 +467,9 @@ static const char *name_cost(const struct members *all)
 {
     static const char *const names[] = {"processor time", "wall time",  "time",
                                         "dofs",           "iterations", "peak memory"};
-    enum br_cost kind = all->list->cost.kind;
+    enum br_cost kind = all->list->kind;
     for (size_t i = 0; i < all->count; i++) /* a column may not say which time it has */
-        kind = all->list[i].cost.kind == BR_COST_TIME ? BR_COST_TIME : kind;
+        kind = all->list[i].kind == BR_COST_TIME ? BR_COST_TIME : kind;
     return kind == BR_COSTS ? all->cost : names[kind];
 }
 
@@ -538,8 +484,8 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
     if (!w->program || !w->point)
         return br_no_memory(err, "the programs");
     snprintf(w->cost, sizeof w->cost, "%s", name_cost(all));
-    w->cost_unit = all->list->cost.unit;
-    w->is_time = all->list->cost.kind <= BR_COST_TIME;
+    w->cost_unit = all->list->unit;
+    w->is_time = all->list->kind <= BR_COST_TIME;
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
         struct br_work_point *first = w->point + w->points;
         take_points(w, m);

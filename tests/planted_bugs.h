@@ -1450,7 +1450,7 @@ static const struct planted_bug planted_bugs[] = {
     {"cheapest_is_the_dearest", "printed", "orders/work.c", "tests/test_trade",
      "return a->cost < b->cost ||", "return a->cost > b->cost ||"},
     {"cost_without_its_unit", "printed", "orders/work.c", "golden trade_programs",
-     "const double cost = number * p->factor *", "const double cost = number *"},
+     "row->number[m->cost] * m->factor;", "row->number[m->cost];"},
     {"ties_are_decided", "interval", "orders/work.c", "golden trade_programs",
      "<= hypot(a->half, b->half)", "<= 0"},
     {"starts_count_as_costs", "interval", "orders/work.c", "golden trade_programs",

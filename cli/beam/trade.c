@@ -405,9 +405,11 @@ static enum br_status make_numbers(const struct br_trade *t, const struct br_nam
     size_t rows = 0;
     for (size_t i = 0; i < t->count; i++)
         rows += t->trial[i].named == method && t->trial[i].end != BR_TRIAL_LEFT;
-    if (br_numbers_make_room(n, rows, 1, err) ||
-        br_numbers_add_quantity(n, norm->name, norm->unit, false, err))
+    if (br_numbers_make_room(n, rows, 2, err) ||
+        br_numbers_add_quantity(n, norm->name, norm->unit, false, err) ||
+        br_numbers_add_quantity(n, "cpu", NULL, false, err))
         return err->status;
+    n->quantities = n->costs = 1;
     n->column[BR_AXIS_SPACE] = br_resolution_column_find("n");
     n->column[BR_AXIS_TIME] =
         method->method.scheme->adaptive ? &tolerance : br_resolution_column_find("k");
@@ -421,7 +423,7 @@ static enum br_status make_numbers(const struct br_trade *t, const struct br_nam
         row->z[BR_AXIS_SPACE] = 1 / (double)trial->at.n;
         row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] = k;
         *row->number = br_trial_bound(trial) * trial->scale;
-        row->seconds = br_trial_seconds(trial);
+        row->number[1] = br_trial_seconds(trial);
         row->failure = trial->failure.status ? strdup(trial->failure.message) : NULL;
         row++;
     }

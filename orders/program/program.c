@@ -19,6 +19,7 @@ struct job {
     uint64_t *stamp;            /* of each row's files, when the study began; owned */
     struct br_kept *kept;
     struct br_numbers_row start; /* of a trade: of a process that does nothing */
+    double start_half[2];        /* of its times' 95 % intervals */
 };
 
 /* ---- finished cells ---- */
@@ -98,7 +99,7 @@ static double median(double *time, size_t runs, double *half)
  * takes long, once or never. */
 static enum br_status time_runs(const struct br_orders_request *program,
                                 const struct br_command_words *words, struct br_numbers_row *row,
-                                struct br_error *err)
+                                double half[2], struct br_error *err)
 {
     struct br_orders_request bare = *program;
     struct br_numbers_row one = {.failure = NULL};
@@ -117,14 +118,11 @@ static enum br_status time_runs(const struct br_orders_request *program,
         time[0][runs] = one.seconds;
         time[1][runs++] = one.wall;
         spent += one.wall;
-        row->seconds = median(time[0], runs, &row->half[0]);
-        row->wall = median(time[1], runs, &row->half[1]);
-        settled = runs >= LEAST_RUNS && row->half[0] <= fmax(known * row->seconds, least) &&
-                  row->half[1] <= fmax(known * row->wall, least);
+        row->seconds = median(time[0], runs, &half[0]);
+        row->wall = median(time[1], runs, &half[1]);
+        settled = runs >= LEAST_RUNS && half[0] <= fmax(known * row->seconds, least) &&
+                  half[1] <= fmax(known * row->wall, least);
     }
-    for (int i = 0; i < 2; i++)
-        if (!row->half[i])
-            row->half[i] = scatter * time[i][0];
     return BR_OK;
 }
 
@@ -138,24 +136,31 @@ static bool is_timed(const struct br_orders_request *program)
 }
 
 /* The times of a process that does nothing: they are taken away from all others. */
-static enum br_status time_start(const struct br_orders_request *program,
-                                 struct br_numbers_row *row, struct br_error *err)
+static enum br_status time_start(struct job *j, struct br_error *err)
 {
     static char path[] = "/bin/true", *word[] = {path, NULL};
     const struct br_command_words words = {.word = word, .program = path};
-    *row = (struct br_numbers_row){.seconds = 0};
-    return is_timed(program) && access(path, X_OK) == 0 ? time_runs(program, &words, row, err)
-                                                        : BR_OK;
+    j->start = (struct br_numbers_row){.seconds = 0};
+    return is_timed(j->program) && access(path, X_OK) == 0
+               ? time_runs(j->program, &words, &j->start, j->start_half, err)
+               : BR_OK;
 }
 
-static void take_start_away(const struct br_numbers_row *start, struct br_numbers_row *row)
+/* Measures the times of a row, with the deviations of its costs (costs_of_runs). */
+static enum br_status time_row(const struct job *j, const struct br_command_words *words,
+                               struct br_numbers_row *row, struct br_error *err)
 {
-    const double taken[2] = {start->seconds, start->wall};
+    double half[2] = {scatter * row->seconds, scatter * row->wall};
+    const double taken[2] = {j->start.seconds, j->start.wall};
     double *const time[2] = {&row->seconds, &row->wall};
+    if (time_runs(j->program, words, row, half, err))
+        return err->status;
     for (int i = 0; i < 2; i++) {
-        row->half[i] = hypot(row->half[i], start->half[i]);
-        *time[i] = fmax(*time[i] - taken[i], row->half[i]);
+        half[i] = hypot(half[i], j->start_half[i]);
+        *time[i] = fmax(*time[i] - taken[i], half[i]);
+        row->deviation[j->numbers->quantities + (size_t)i] = half[i] / 2;
     }
+    return BR_OK;
 }
 
 /* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. A row is
@@ -166,8 +171,8 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
     struct row of = {&j->numbers->row[i], j->numbers->quantities};
     of.row->kept = br_kept_take(j->kept, text, pass_row, &of);
     if (!of.row->kept && !br_run_command(j->program, words, of.row, err) && is_timed(j->program) &&
-        !of.row->failure && !time_runs(j->program, words, of.row, err))
-        take_start_away(&j->start, of.row);
+        !of.row->failure)
+        time_row(j, words, of.row, err);
     if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
         of.row->kept = false;
         return br_run_failed(j->program, of.row, err,
@@ -212,7 +217,7 @@ enum br_status br_program_rows(const struct br_orders_request *p, struct br_numb
     const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
     const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
-    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings + 4, err);
     for (size_t r = 0; r < rows && !status; r++) {
         const size_t at[BR_AXES] = {
             [BR_AXIS_SPACE] = r / repeat / inner, [BR_AXIS_TIME] = r / repeat % inner};
@@ -231,6 +236,8 @@ enum br_status br_program_rows(const struct br_orders_request *p, struct br_numb
         br_numbers_sort(numbers);
     return status;
 }
+
+static const char *const costs_of_runs[] = {"cpu", "wall", "memory", "dofs"};
 
 static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
                                       struct br_error *err)
@@ -268,6 +275,12 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
+    const size_t costs = !p->cost ? 0 : mesh && strcmp(mesh->name, "dofs") == 0 ? 4 : 3;
+    for (size_t i = 0; i < costs && !status; i++)
+        status =
+            br_numbers_add_quantity(numbers, costs_of_runs[i], i == 2 ? "B" : NULL, false, err);
+    numbers->costs = numbers->quantities >= costs && !status ? costs : 0;
+    numbers->quantities -= numbers->costs;
     return status;
 }
 
@@ -315,8 +328,8 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             struct br_numbers_row *other = &n->row[first + i];
             row.seconds += other->seconds;
             row.wall += other->wall;
-            for (int k = 0; k < 2; k++)
-                row.half[k] = fmax(row.half[k], other->half[k]);
+            for (size_t q = n->quantities; q < n->quantities + n->costs; q++)
+                row.deviation[q] = fmax(row.deviation[q], other->deviation[q]);
             row.bytes = fmax(row.bytes, other->bytes);
             row.kept &= other->kept;
             if (!row.failure) {
@@ -340,6 +353,10 @@ static void finish_rows(const struct br_orders_request *p, struct br_numbers *n)
         take_stated_sizes(p, n, axis);
     if (p->repeat > 1)
         join_repeated(n, (size_t)p->repeat);
+    for (struct br_numbers_row *row = n->row; row < n->row + n->rows && n->costs; row++) {
+        const double costs[] = {row->seconds, row->wall, row->bytes, row->given[BR_AXIS_SPACE]};
+        memcpy(row->number + n->quantities, costs, n->costs * sizeof *costs);
+    }
 }
 
 /* Refuses a command that is not valid at any resolution, before one is run. */
@@ -390,7 +407,7 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
                                  .self = &j};
     if (!failed)
         br_run_folders_clean();
-    failed = failed || time_start(program, &j.start, err) || br_each(&each, err);
+    failed = failed || time_start(&j, err) || br_each(&each, err);
     free(j.stamp);
     if (failed) {
         br_numbers_clear(numbers);
