@@ -30,6 +30,8 @@ static const struct br_command br_command_check = {
 static enum br_status trade(const struct br_options *options, struct br_session *session,
                             struct br_error *err)
 {
+    if (options->words == 0)
+        return br_fail(err, BR_BAD_INPUT, "no program is given, expected study files or tables");
     return br_trade_sources(options, session, NULL, 0, err);
 }
 
@@ -41,7 +43,6 @@ static const struct br_command br_command_trade = {
     .about = BR_TRADE_ABOUT,
     .example = {"beamrate-orders trade fd.yaml fem.yaml --trust",
                 "beamrate-orders trade fd.csv spectral.csv --cost dofs"},
-    .least_words = 1,
     .most_words = BR_MOST_WORDS,
     .run = trade,
 };

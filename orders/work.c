@@ -319,7 +319,8 @@ static void take_points(struct br_work_precision *w, const struct member *m)
         *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
         at->cost = cost_at(m, row, &at->half);
         at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
-        at->is_start = m->kind <= BR_COST_TIME && at->cost < least * at->half;
+        at->is_start =
+            m->kind <= BR_COST_TIME && isfinite(row->seconds) && at->cost < least * at->half;
         br_numbers_name_cell(n, row, at->label);
         if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
             w->points++;
@@ -331,7 +332,7 @@ static void take_points(struct br_work_precision *w, const struct member *m)
                          : !(at->error > 0) ? "an error of 0"
                          : m->kind == BR_COST_MEMORY
                              ? "no peak memory is known, as of a small program"
-                             : "no cost above 0";
+                             : "no cost";
         }
     }
     w->programs++;
@@ -366,10 +367,10 @@ static enum br_status check_growth(const struct br_work_precision *w, const stru
     if (!count || !(last->cost + last->half < clearly * (p->cost - p->half)))
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
-                   "%s: %s falls from %.3g %s at %s to %.3g %s at %s, expected a cost that grows "
+                   "%s: %s falls from %.3g at %s to %.3g%s%s at %s, expected a cost that grows "
                    "with finer sizes; --cost NAME names another one",
-                   m->source->path, w->cost, p->cost, w->cost_unit, p->label, last->cost,
-                   w->cost_unit, last->label);
+                   m->source->path, w->cost, p->cost, p->label, last->cost,
+                   *w->cost_unit ? " " : "", w->cost_unit, last->label);
 }
 
 /* ---- how costs grow ---- */

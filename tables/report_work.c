@@ -92,6 +92,9 @@ static void put_digits(struct br_document *d, const struct br_work_precision *w)
 {
     double target[BR_WORK_DIGITS];
     const size_t count = br_work_targets(w, target);
+    bool ties = false;
+    for (size_t i = 0; i < count; i++)
+        ties |= find_cheapest(w, target[i]).tied;
     for (size_t i = 0; i < count; i++) {
         const struct cheapest c = find_cheapest(w, target[i]);
         br_put_row(d);
@@ -103,7 +106,7 @@ static void put_digits(struct br_document *d, const struct br_work_precision *w)
                br_text(!c.tied      ? NULL
                        : w->is_time ? "alike by the clock"
                                     : "equal"),
-               .key = "tie", .flags = BR_VARIES);
+               .key = "tie", .flags = ties ? 0 : BR_FILES_ONLY);
     }
 }
 

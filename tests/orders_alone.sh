@@ -67,6 +67,8 @@ says 'runs are timed one at a time'
 BEAMRATE='' ends 2 trade costs.csv --jobs 2
 says 'runs are timed one at a time'
 BEAMRATE='' ends 2 trade costs.csv example1
+BEAMRATE='' ends 2 trade
+says 'no program is given'
 "$BEAMRATE_ORDERS" check - --quiet <study.yaml || fails "a study of standard input: its table is not found"
 
 # What it alone says: it knows no scene.
