@@ -107,11 +107,11 @@ static const struct br_option rows[] = {
      "write the results into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not exist."},
 
-    /* what is kept */
-    {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are kept", NULL, BR_TAKES_FLAG,
+    /* what is cached */
+    {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are cached", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_ORDERS,
-     .more = "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
-             "or in orders-kept without --out. A run is used again if its words, its program and "
+     .more = "After an interruption, or for a larger grid. Finished runs are cached in DIR/.cache, "
+             "or in orders-cache without --out. A run is used again if its words, its program and "
              "the files that its words name are the same. Other files that the program reads or "
              "starts are not checked: do not give this option if they have changed."},
 

@@ -10,7 +10,7 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 
-struct run {
+struct programs_run {
     const struct br_options *options; /* borrowed, as the session */
     struct br_session *session;
     const char *cost;              /* of --cost; "": not given */
@@ -45,7 +45,7 @@ bool br_is_trade_source(const char *word)
     return is;
 }
 
-static enum br_status read_source(struct run *r, const char *word, struct br_error *err)
+static enum br_status read_source(struct programs_run *r, const char *word, struct br_error *err)
 {
     struct br_study_file *f = &r->file[r->files];
     struct br_work_source *s = &r->source[r->files++];
@@ -70,8 +70,8 @@ static enum br_status read_source(struct run *r, const char *word, struct br_err
     return err->status;
 }
 
-static enum br_status read_all(struct run *r, const struct br_work_source *other, size_t others,
-                               struct br_error *err)
+static enum br_status read_all(struct programs_run *r, const struct br_work_source *other,
+                               size_t others, struct br_error *err)
 {
     const struct br_options *o = r->options;
     r->file = br_allocate(o->words + 1, sizeof *r->file);
@@ -88,7 +88,7 @@ static enum br_status read_all(struct run *r, const struct br_work_source *other
     return BR_OK;
 }
 
-static enum br_status compute(struct run *r, struct br_error *err)
+static enum br_status compute(struct programs_run *r, struct br_error *err)
 {
     const struct br_observer *observer = br_progress_start("timing", r->session->quiet);
     enum br_status status = BR_OK;
@@ -103,7 +103,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
                   : br_work_find(r->source, r->sources, r->cost, &r->works, &r->count, err);
 }
 
-static enum br_status write_all(struct run *r, struct br_error *err)
+static enum br_status write_all(struct programs_run *r, struct br_error *err)
 {
     struct br_provenance provenance;
     if (br_session_report(r->session, 1, err))
@@ -128,7 +128,7 @@ enum br_status br_trade_sources(const struct br_options *options, struct br_sess
                                 struct br_error *err)
 {
     const char *cost = br_option_text(options, BR_OPT_COST);
-    struct run r = {.options = options, .session = session, .cost = cost ? cost : ""};
+    struct programs_run r = {.options = options, .session = session, .cost = cost ? cost : ""};
     bool failed = br_session_alone(err) || read_all(&r, other, others, err) ||
                   br_session_open(session, err) || compute(&r, err) || write_all(&r, err);
     for (size_t i = 0; i < r.files && !failed; i++)

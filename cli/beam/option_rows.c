@@ -9,16 +9,16 @@
 /* ---- registries ---- */
 
 BR_WORDS(norm, br_norms)
-BR_WORDS(judge, br_judges)
+BR_WORDS(reference, br_references)
 
 /* The name with its arguments: fine:N,K. */
-static const char *judge_syntax(size_t row)
+static const char *reference_syntax(size_t row)
 {
-    return judge_name(row) ? br_judges[row]->syntax : NULL;
+    return reference_name(row) ? br_references[row]->syntax : NULL;
 }
 
 const struct br_words br_norm_words = {norm_name, norm_title, NULL};
-const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
+const struct br_words br_reference_words = {reference_syntax, reference_title, NULL};
 
 size_t br_registries(struct br_registry list[BR_REGISTRIES])
 {
@@ -29,7 +29,7 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
             list[count++] = (struct br_registry){f->name, f->help, f->words};
     }
     list[count++] =
-        (struct br_registry){"reference", "what errors are measured against", &br_judge_words};
+        (struct br_registry){"reference", "what errors are measured against", &br_reference_words};
     list[count++] = (struct br_registry){"norm", "norms of the error", &br_norm_words};
     list[count++] = (struct br_registry){"format", "formats of the results", &br_format_words};
     return count;
@@ -64,8 +64,8 @@ static const struct br_option rows[] = {
      BR_TAKES_COUNTS, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
-     .words = &br_judge_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
+     "the reference solution of the errors: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
+     .words = &br_reference_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
      .more =
          "exact is the default; for a scene that was manufactured from a solution, it is mms. "
          "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is "
@@ -107,8 +107,8 @@ static const struct br_option rows[] = {
              "--steps, --tolerance and --methods all meshes, steps and time schemes are "
              "tried."},
     {BR_OPT_SECONDS, "seconds", 0, "S",
-     "goal: the least error with so many seconds of a march, set-up included", NULL,
-     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
+     "goal: the smallest error within so many seconds, set-up included", NULL, BR_TAKES_NUMBER,
+     BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
      .more = "One of --error and --seconds, for one scene."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
      "10", BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE,
@@ -156,9 +156,10 @@ static const struct br_option rows[] = {
      "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,
      BR_TAKES_TEXT,
      .commands = BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES,
-     .more = "May be given several times. KEY is any key of the scene, with its section: length, "
-             "friction.coefficient. It is added if the scene does not have it. VALUE is read as if "
-             "it stood in the file. Of several scenes each has it.",
+     .more =
+         "May be given several times. KEY is any key of the scene, with its section: length, "
+         "friction.coefficient. A key that the scene does not have is added. VALUE is written as in "
+         "the file. With several scenes, each gets it.",
      .repeats = true},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -25,7 +25,7 @@ struct item {
     struct br_trade trade;
 };
 
-struct run {
+struct trade_run {
     const struct br_options *options; /* borrowed */
     struct br_session *session;       /* borrowed */
     struct br_study_request study;
@@ -41,7 +41,8 @@ struct run {
 /* All trials take about so many seconds, if neither a list nor --all asks for more. */
 static const double usual_seconds = 10;
 
-static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
+static enum br_status set_request(const struct trade_run *r, struct item *item,
+                                  struct br_error *err)
 {
     static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
                                                BR_OPTIONS}; /* given lists are tried as they are */
@@ -50,13 +51,13 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     struct br_trial_request *q = &item->trade.request;
     struct br_named_method fine;
     *q = br_trial_request_default(scene);
-    q->judge = r->study.judge;
+    q->reference_kind = r->study.reference_kind;
     q->threads = r->session->threads;
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (!br_first_given(o, listed) && !br_option_given(o, BR_OPT_ALL))
         q->seconds = usual_seconds;
     q->norm = r->study.norm[0];
-    if (!q->judge || !q->judge->nests)
+    if (!q->reference_kind || !q->reference_kind->nests)
         return BR_OK;
     if (br_named_method_read(br_highest_scheme()->name, &fine, err))
         return err->status;
@@ -88,7 +89,7 @@ static void keep_usual(struct br_named_methods *all)
     all->count = kept;
 }
 
-static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
+static enum br_status lay_out(const struct trade_run *r, struct item *item, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
@@ -117,7 +118,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
 }
 
 /* Refuses a list that no method uses. */
-static enum br_status check_used(const struct run *r, bool split, struct br_error *err)
+static enum br_status check_used(const struct trade_run *r, bool split, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const struct br_named_methods *methods = &r->study.methods;
@@ -154,7 +155,7 @@ static enum br_status read_error(const char *text, double *error, struct br_erro
 }
 
 /* What --error or --seconds asks for, of one scene and by a reference for all meshes and steps. */
-static enum br_status read_goal(struct run *r, struct br_error *err)
+static enum br_status read_goal(struct trade_run *r, struct br_error *err)
 {
     static const enum br_option_id goals[] = {BR_OPT_ERROR, BR_OPT_SECONDS, BR_OPTIONS};
     const struct br_options *o = r->options;
@@ -165,23 +166,23 @@ static enum br_status read_goal(struct run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found both");
     if (o->words != 1)
         return br_fail(err, BR_BAD_INPUT, "--%s: found %zu scenes, expected one", goal, o->words);
-    if (r->study.judge && r->study.judge->nests)
+    if (r->study.reference_kind && r->study.reference_kind->nests)
         return br_fail(err, BR_BAD_INPUT,
                        "--reference: found '%s', expected a reference for any mesh and time step: "
                        "exact or mms",
-                       r->study.judge->name);
+                       r->study.reference_kind->name);
     r->goal.seconds = br_option_number(o, BR_OPT_SECONDS, 0);
     return error ? read_error(error, &r->goal.error, err) : BR_OK;
 }
 
-static enum br_status check_norm(const struct run *r, struct br_error *err)
+static enum br_status check_norm(const struct trade_run *r, struct br_error *err)
 {
     return r->study.norms > 1
                ? br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms)
                : BR_OK;
 }
 
-static enum br_status read_scenes(struct run *r, struct br_error *err)
+static enum br_status read_scenes(struct trade_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     if (!(r->item = br_allocate(o->words, sizeof *r->item)))
@@ -210,13 +211,13 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
 /* A shorter forecast is not printed, s. */
 static const double worth_printing = 3;
 
-static enum br_status run_one(struct run *r, struct item *item, struct br_error *err)
+static enum br_status run_one(struct trade_run *r, struct item *item, struct br_error *err)
 {
     struct br_trade *trade = &item->trade;
     const struct br_trial_forecast *o = &trade->forecast;
     const char *name = item->opened.scene.name;
     trade->request.observer = br_progress_start(name, r->session->quiet);
-    enum br_status status = br_trade_foresee(trade, err);
+    enum br_status status = br_trade_estimate(trade, err);
     if (!status && !r->session->quiet && !br_trade_has_goal(trade) &&
         (o->seconds >= worth_printing || o->left > 0)) {
         br_progress_end();
@@ -233,7 +234,7 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 
-static enum br_status run_all(struct run *r, struct br_error *err)
+static enum br_status run_all(struct trade_run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
@@ -249,7 +250,7 @@ static enum br_status run_all(struct run *r, struct br_error *err)
 /* ---- results ---- */
 
 /* A report of each scene, and where there are several one of all. */
-static enum br_status write_all(struct run *r, struct br_error *err)
+static enum br_status write_all(struct trade_run *r, struct br_error *err)
 {
     const struct br_trade **trade = br_allocate(r->items, sizeof *trade);
     enum br_status status = trade ? br_session_report(r->session, r->items + (r->items > 1), err)
@@ -281,7 +282,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 }
 
 /* Failed trials are results; a scene in which all failed is a failure. */
-static enum br_status check(const struct run *r, struct br_error *err)
+static enum br_status check(const struct trade_run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
@@ -313,7 +314,8 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
 }
 
 /* Adds the runs of a method on a mesh: by time steps or by tolerances. */
-static void add_runs(struct run *r, const struct br_named_method *c, size_t n, size_t step_count)
+static void add_runs(struct trade_run *r, const struct br_named_method *c, size_t n,
+                     size_t step_count)
 {
     enum { DEFAULT_STEPS = 1000 };
     const struct br_options *o = r->options;
@@ -333,7 +335,7 @@ static void add_runs(struct run *r, const struct br_named_method *c, size_t n, s
         }
 }
 
-static enum br_status lay_out_split(struct run *r, struct br_error *err)
+static enum br_status lay_out_split(struct trade_run *r, struct br_error *err)
 {
     static const size_t default_n[] = {100};
     const struct br_options *o = r->options;
@@ -358,7 +360,7 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status compute_split(struct run *r, struct br_error *err)
+static enum br_status compute_split(struct trade_run *r, struct br_error *err)
 {
     const struct br_observer *observer = br_progress_start("splitting", r->session->quiet);
     enum br_status status = BR_OK;
@@ -371,7 +373,7 @@ static enum br_status compute_split(struct run *r, struct br_error *err)
 }
 
 /* The picture is over k or h, where the runs differ by one of them. */
-static enum br_status write_split(struct run *r, struct br_error *err)
+static enum br_status write_split(struct trade_run *r, struct br_error *err)
 {
     const struct br_provenance provenance = br_provenance_of(&r->item->opened, r->session->threads);
     if (br_session_report(r->session, 1, err))
@@ -381,7 +383,7 @@ static enum br_status write_split(struct run *r, struct br_error *err)
     return br_session_finish(r->session, err);
 }
 
-static bool split(struct run *r, struct br_error *err)
+static bool split(struct trade_run *r, struct br_error *err)
 {
     const bool writes = r->session->writes;
     return lay_out_split(r, err) || br_session_open(r->session, err) ||
@@ -432,7 +434,7 @@ static enum br_status make_numbers(const struct br_trade *t, const struct br_nam
 }
 
 /* Of the methods that are named; else of those that are the cheapest ones to some error. */
-static bool is_shown(const struct run *r, const struct br_trade *t, size_t method)
+static bool is_shown(const struct trade_run *r, const struct br_trade *t, size_t method)
 {
     bool shown = r->study.methods.count;
     for (size_t i = 0; i < BR_TRADE_DIGITS && !shown; i++)
@@ -441,7 +443,7 @@ static bool is_shown(const struct run *r, const struct br_trade *t, size_t metho
 }
 
 /* Scenes and programs: what digits cost in all. */
-static enum br_status beside(struct run *r, struct br_error *err)
+static enum br_status beside(struct trade_run *r, struct br_error *err)
 {
     size_t most = 1, count = 0;
     for (size_t i = 0; i < r->items; i++)
@@ -494,7 +496,7 @@ static enum br_status check_programs(const struct br_options *o, size_t programs
     return name ? br_fail(err, BR_BAD_INPUT, "--%s: programs do not use it", name) : BR_OK;
 }
 
-static bool trade(struct run *r, struct br_error *err)
+static bool trade(struct trade_run *r, struct br_error *err)
 {
     size_t programs = 0;
     for (size_t i = 0; i < r->options->words; i++)
@@ -518,7 +520,7 @@ static bool trade(struct run *r, struct br_error *err)
 static enum br_status run(const struct br_options *options, struct br_session *session,
                           struct br_error *err)
 {
-    struct run r = {.options = options, .session = session};
+    struct trade_run r = {.options = options, .session = session};
     const bool failed = br_option_given(options, BR_OPT_SPLIT) ? split(&r, err) : trade(&r, err);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);

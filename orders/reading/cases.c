@@ -95,14 +95,14 @@ static bool a_size_repeats(const struct br_roles *r, size_t but)
 
 static bool is_consecutive(const struct br_roles *r, const struct br_role_column *c)
 {
-    bool seen[32] = {false};
+    bool found[32] = {false};
     if (!c->is_whole || c->words || c->least < 0 || c->most > 31)
         return false;
     for (size_t i = 0; i < r->rows; i++)
         if (!isnan(c->number[i]))
-            seen[(int)c->number[i]] = true;
+            found[(int)c->number[i]] = true;
     for (int i = (int)c->least; i <= (int)c->most; i++)
-        if (!seen[i])
+        if (!found[i])
             return false;
     return c->least < c->most;
 }

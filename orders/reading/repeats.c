@@ -8,14 +8,14 @@
 
 #include "base/words.h"
 
-struct run {
+struct repeated_run {
     size_t group, row;
     double z[BR_AXES], error;
 };
 
 static int by_run(const void *a, const void *b)
 {
-    const struct run *x = a, *y = b;
+    const struct repeated_run *x = a, *y = b;
     if (x->group != y->group)
         return (x->group > y->group) - (x->group < y->group);
     for (int i = 0; i < BR_AXES; i++)
@@ -24,14 +24,14 @@ static int by_run(const void *a, const void *b)
     return (x->error < y->error) - (x->error > y->error); /* the least error last */
 }
 
-static bool is_one_size(const struct run *a, const struct run *b)
+static bool is_one_size(const struct repeated_run *a, const struct repeated_run *b)
 {
     return a->group == b->group && fabs(a->z[0] - b->z[0]) <= 1e-9 &&
            fabs(a->z[1] - b->z[1]) <= 1e-9;
 }
 
 /* The scatter of numbers from run[first] to before run[end], relative to their mean. */
-static double scatter_of(const struct run *run, size_t first, size_t end)
+static double scatter_of(const struct repeated_run *run, size_t first, size_t end)
 {
     double sum = 0, squares = 0;
     for (size_t i = first; i < end; i++)
@@ -49,16 +49,16 @@ static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_
     const bool lines = r->fields->line[row];
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s%s%s: the resolution is that of %s, expected each once: --where chooses "
-        "one of several studies, by a column that differs between them; of repeated runs, "
-        "give the mean, or each size at least twice",
+        "%s%s%s: the same resolution as in %s: if these are several studies, choose one with "
+        "--where COLUMN=WORD; if they are repeated runs, give their mean, or each size at least "
+        "twice",
         r->wishes->path, lines ? ":" : ": ",
         br_row_place(r->fields, row, place) + (lines ? strlen("line ") : 0),
         br_row_place(r->fields, before, other));
 }
 
 /* Runs of one size: of repeated runs the mean counts, of adaptive meshes the last. */
-static enum br_status settle_repeats(struct br_roles *r, struct run *run, size_t count,
+static enum br_status settle_repeats(struct br_roles *r, struct repeated_run *run, size_t count,
                                      struct br_error *err)
 {
     size_t repeats = 0, least = count, at = 0;
@@ -100,7 +100,7 @@ static enum br_status settle_repeats(struct br_roles *r, struct run *run, size_t
 
 enum br_status br_roles_take_repeats(struct br_roles *r, struct br_error *err)
 {
-    struct run *run = br_store_take(&r->store, r->rows + 1, sizeof *run);
+    struct repeated_run *run = br_store_take(&r->store, r->rows + 1, sizeof *run);
     size_t count = 0, error = BR_NO_ROW;
     if (!run)
         return br_no_memory(err, "the table");
@@ -110,8 +110,8 @@ enum br_status br_roles_take_repeats(struct br_roles *r, struct br_error *err)
     for (size_t i = 0; i < r->rows && error != BR_NO_ROW; i++) {
         if (r->dropped[i])
             continue;
-        struct run *of = &run[count++];
-        *of = (struct run){r->group[i], i, {0, 0}, r->column[error].number[i]};
+        struct repeated_run *of = &run[count++];
+        *of = (struct repeated_run){r->group[i], i, {0, 0}, r->column[error].number[i]};
         for (int axis = 0; axis < BR_AXES; axis++)
             of->z[axis] = !r->log_z[axis] ? 0
                           : isfinite(r->log_z[axis][i])
