@@ -170,9 +170,9 @@ static bool have_cost(struct members *all, const char *name, enum br_cost kind)
         if (name)
             find_cost(m, name, BR_COSTS);
         if (!m->costs)
-            find_cost(m, NULL, kind);
+            find_cost(m, NULL, kind == BR_COST_TIME ? BR_COST_CPU : kind);
         if (!m->costs && kind <= BR_COST_TIME)
-            find_cost(m, NULL, kind == BR_COST_TIME ? BR_COST_CPU : BR_COST_TIME);
+            find_cost(m, NULL, BR_COST_TIME);
         have &= m->costs > 0;
     }
     return have;
@@ -307,7 +307,6 @@ static enum br_axis line_of(const struct br_numbers *n)
 
 static void take_points(struct br_work_precision *w, const struct member *m)
 {
-    static const double least = 4; /* a cost is known to a quarter */
     const struct br_numbers *n = m->source->numbers;
     struct br_work_program *p = &w->program[w->programs];
     const enum br_axis axis = p->axis = line_of(n);
@@ -319,8 +318,7 @@ static void take_points(struct br_work_precision *w, const struct member *m)
         *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
         at->cost = cost_at(m, row, &at->half);
         at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
-        at->is_start =
-            m->kind <= BR_COST_TIME && isfinite(row->seconds) && at->cost < least * at->half;
+        at->is_start = isfinite(row->seconds) && at->cost <= at->half; /* no more is left of it */
         br_numbers_name_cell(n, row, at->label);
         if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
             w->points++;
