@@ -12,10 +12,12 @@
 
 /* ---- what is refused ---- */
 
-/* What other programs call an option: the name here, and more to say of it. */
+/* What other programs call an option: the name of an option here, and more to say of it. */
 static const struct elsewhere {
     const char *word, *name, *more;
 } elsewhere[] = {
+    {"jobs", "cost", "runs are timed one at a time"},
+    {"threads", "cost", "runs are timed one at a time"},
     {"dt", "k", ""},
     {"time-step", "k", ""},
     {"order", "expect",
@@ -80,7 +82,10 @@ static void suggest(const struct rows *rows, const char *word, char *text, size_
     *text = '\0';
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(elsewhere[i].word, word) == 0 && find(rows, elsewhere[i].name)) {
-            br_append(text, size, "did you mean --%s?%s", elsewhere[i].name, elsewhere[i].more);
+            const char *more = elsewhere[i].more; /* without a blank it is all that is said */
+            const bool means = !*more || *more == ' ';
+            br_append(text, size, "%s%s%s%s", means ? "did you mean --" : "",
+                      means ? elsewhere[i].name : "", means ? "?" : "", more);
             return;
         }
     struct br_option theirs[BR_OPTIONS];

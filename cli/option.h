@@ -45,6 +45,7 @@ enum br_option_id {
     BR_OPT_WHERE,
     BR_OPT_FINEST,
     BR_OPT_WITHOUT,
+    BR_OPT_COST,
     BR_OPT_DIMENSION,
     BR_OPT_FORMAL,
     BR_OPT_EXPECT,

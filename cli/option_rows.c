@@ -63,6 +63,13 @@ static const struct br_option rows[] = {
              "as left out by hand."},
     {BR_OPT_WITHOUT, "without", 0, "LIST", "sizes that are left out: 8, or 8,16, or n=8", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "Before --finest counts."},
+    {BR_OPT_COST, "cost", 0, "NAME",
+     "cost of programs: cpu, wall, dofs, iterations, memory, or a column (default: the first that "
+     "all have)",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_TRADE,
+     .more =
+         "Of a run, cpu and wall are measured, and so is memory. Other names are those of columns, "
+         "or of numbers that 'read:' of a study file names."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
      "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
      .commands = BR_FOR_ORDERS,
@@ -83,7 +90,7 @@ static const struct br_option rows[] = {
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,
      "run the commands of the study files, and read their tables in any folder", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK | BR_FOR_TRADE,
      .more = "Needed each time: a study file with a command is a program. Read it before."},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
@@ -132,8 +139,8 @@ static const struct br_option rows[] = {
                  BR_FOR_ORDERS},
     {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
      WHOLE(0, 4096),
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_EXTREMES |
-                 BR_FOR_FIGURES | BR_FOR_ORDERS,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_EXTREMES | BR_FOR_FIGURES |
+                 BR_FOR_ORDERS,
      .more = "The results are the same for any number, to the bit."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
      BR_TAKES_FLAG,

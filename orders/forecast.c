@@ -108,15 +108,3 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     free(point);
     return status;
 }
-
-const struct br_numbers_row *br_orders_cheapest(const struct br_orders *o, size_t quantity,
-                                                double error)
-{
-    const struct br_numbers_row *best = NULL;
-    for (size_t i = 0; i < o->numbers->rows; i++) {
-        const struct br_numbers_row *row = &o->numbers->row[i];
-        if (row->number[quantity] <= error && (!best || row->seconds < best->seconds))
-            best = row;
-    }
-    return best && isfinite(best->seconds) ? best : NULL;
-}

@@ -67,6 +67,8 @@ struct br_orders_request {
     size_t readings;
     double seconds; /* limit of one run */
     double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
+    const char *cost; /* of a trade: columns of costs are read, this one too, and runs are repeated
+                         until the median of their times is known; "": the usual ones; NULL: not */
     /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
     const char *cache;                  /* the folder of finished cells, made where it is missing;

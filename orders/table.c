@@ -175,20 +175,43 @@ static enum br_status take_quantity(struct source *s, size_t group, size_t colum
         return br_no_memory(err, "the table");
     const enum br_status status =
         br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
+    n->quantity[quantity].case_at = *group_name ? strlen(of) : 0;
     free(name);
     return status ? status : take_numbers(s, group, column, quantity, err);
 }
 
-static enum br_status take_quantities(struct source *s, struct br_error *err)
+/* Whether a column has costs, and is not studied. */
+static bool is_cost(const struct source *s, const struct br_role_column *c)
+{
+    double factor;
+    return s->request->cost && c->name && c->numbers && !c->words && !is_studied(c) &&
+           (strcmp(c->name, s->request->cost) == 0 ||
+            br_cost_of(c->name, c->unit, &factor) != BR_COSTS);
+}
+
+/* What is studied, or the costs. */
+static enum br_status take_quantities(struct source *s, bool costs, struct br_error *err)
 {
     const struct br_roles *r = &s->roles;
-    for (size_t i = 0; i < r->columns; i++)
-        for (size_t group = 0; group < r->groups && is_studied(&r->column[i]); group++)
+    for (size_t i = 0; i < r->columns; i++) {
+        const bool is = costs ? is_cost(s, &r->column[i]) : is_studied(&r->column[i]);
+        for (size_t group = 0; group < r->groups && is; group++)
             if (br_observer_stops(s->request->observer))
                 return br_fail(err, BR_INTERRUPTED, "interrupted");
             else if (take_quantity(s, group, i, err))
                 return err->status;
+    }
     return BR_OK;
+}
+
+static enum br_status take_costs(struct source *s, struct br_error *err)
+{
+    struct br_numbers *n = s->numbers;
+    const size_t studied = n->quantities;
+    const enum br_status status = take_quantities(s, true, err);
+    n->costs = n->quantities - studied;
+    n->quantities = studied;
+    return status;
 }
 
 /* ---- what is said ---- */
@@ -245,13 +268,14 @@ static void say_sizes(struct source *s, enum br_axis axis)
         say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
 }
 
+/* role: BR_ROLE_ASIDE, the costs. */
 static void say_columns(struct source *s, enum br_role role, const char *what)
 {
     const struct br_roles *r = &s->roles;
     char text[200];
     size_t said = 0;
     for (size_t i = 0; i < r->columns; i++)
-        if (r->column[i].role == role)
+        if (role ? r->column[i].role == role : is_cost(s, &r->column[i]))
             say(s, "%s%s", said++ ? ", " : what, quoted(r->column[i].label, text));
 }
 
@@ -273,7 +297,8 @@ static void list_left(struct source *s)
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
-        if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
+        if ((r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) &&
+            !is_cost(s, &r->column[i])) {
             say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
         }
@@ -335,6 +360,7 @@ static enum br_status state(struct source *s, struct br_error *err)
         say_sizes(s, (enum br_axis)axis);
     say_columns(s, BR_ROLE_ERROR, "; errors: ");
     say_columns(s, BR_ROLE_VALUE, "; values: ");
+    say_columns(s, BR_ROLE_ASIDE, "; costs: ");
     say_columns(s, BR_ROLE_DEVIATION, "; standard deviations: ");
     say_columns(s, BR_ROLE_CASE, "; a study for each of: ");
     if (r->means)
@@ -380,7 +406,7 @@ static enum br_status make_room(struct source *s, struct br_error *err)
         return br_no_memory(err, "the table");
     const size_t cells = find_cells(s);
     for (size_t i = 0; i < r->columns; i++)
-        studied += is_studied(&r->column[i]);
+        studied += is_studied(&r->column[i]) || is_cost(s, &r->column[i]);
     if (s->no_memory || br_numbers_make_room(n, cells, studied * r->groups, err))
         return s->no_memory ? br_no_memory(err, "the table") : err->status;
     for (size_t i = 0; i < r->rows; i++)
@@ -427,6 +453,7 @@ static enum br_status take_all(struct source *s, struct br_error *err)
         .where = s->request->where,
         .errors = s->request->errors,
         .values = s->request->values,
+        .cost = s->request->cost,
         .dimension = s->request->assumed_dimension ? 0 : s->request->dimension,
     };
     if (br_roles_find(&s->fields, &wishes, &s->roles, err) || make_room(s, err))
@@ -434,7 +461,8 @@ static enum br_status take_all(struct source *s, struct br_error *err)
     for (int axis = 0; axis < BR_AXES; axis++)
         if (take_sizes(s, (enum br_axis)axis, err))
             return err->status;
-    if (take_quantities(s, err) || state(s, err) || check_lists(s, err))
+    if (take_quantities(s, false, err) || take_costs(s, err) || state(s, err) ||
+        check_lists(s, err))
         return err->status;
     return s->numbers->quantities ? BR_OK : refuse_values(s, err);
 }

@@ -260,33 +260,6 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     }
 }
 
-/* Adds errors over processor time where runs were timed. */
-static void add_costs(struct br_figure *f, const struct br_orders *o)
-{
-    const struct br_numbers *numbers = o->numbers;
-    bool timed = false;
-    for (size_t i = 0; i < numbers->rows; i++)
-        timed |= numbers->row[i].seconds > 0;
-    if (!timed)
-        return;
-    struct br_panel *p = br_panel_add(f, "processor time (s)", "error");
-    p->log_x = p->log_y = true;
-    for (size_t i = 0; i < o->count; i++) {
-        char title[TITLE], name[TITLE];
-        if (quantity_of(o, &o->of[i])->is_value)
-            continue;
-        br_quoted(name, sizeof name, &br_for_markup, title_of(o, &o->of[i], title));
-        struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", name);
-        for (size_t row = 0; row < numbers->rows; row++)
-            if (br_orders_cheapest(o, o->of[i].quantity,
-                                   numbers->row[row].number[o->of[i].quantity]) ==
-                &numbers->row[row])
-                br_point_add(s, numbers->row[row].seconds,
-                             numbers->row[row].number[o->of[i].quantity], NULL);
-        br_series_sort(s);
-    }
-}
-
 /* "Order of l2: 2.00 [1.99, 2.01]; h1: 1.000 [0.999, 1.001]", "drag: p = 1.91, ...". */
 static void say_title(const struct br_orders *o, char *title, size_t size)
 {
@@ -318,7 +291,6 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
                   orders->numbers->quantity->window);
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
         add_errors(&f, orders, axis);
-    add_costs(&f, orders);
     for (size_t i = 0; i < orders->count; i++)
         for (enum br_axis axis = 0; axis < BR_AXES && f.panels < BR_FIGURE_PANELS; axis++) {
             const struct br_orders_line *line = br_orders_finest(&orders->of[i], axis);

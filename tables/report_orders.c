@@ -502,37 +502,6 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
     }
 }
 
-/* Puts the cheapest run for each power of ten, from the largest error down to the smallest one. */
-static void put_cheapest_of(struct br_document *d, const struct br_orders *o, size_t quantity)
-{
-    const struct br_numbers *numbers = o->numbers;
-    const struct br_numbers_row *run = NULL;
-    double most = 0;
-    for (size_t i = 0; i < numbers->rows; i++)
-        most = fmax(most, numbers->row[i].number[quantity]);
-    double error = pow(10, floor(log10(most)));
-    for (int digit = 0; digit < 17 && error > 0; digit++) { /* 0: no power of ten is smaller */
-        if (!(run = br_orders_cheapest(o, quantity, error)))
-            break;
-        br_put_row(d);
-        BR_PUT(d, br_text(numbers->quantity[quantity].name), .key = "quantity");
-        BR_PUT(d, br_number(error), .key = "wanted", .heading = "error at most", .format = "%.0e");
-        put_given(d, numbers, (size_t)(run - numbers->row));
-        BR_PUT(d, br_number(run->number[quantity]), .key = "error", .format = "%.3e");
-        BR_PUT(d, br_number(run->seconds), .key = "cpu_seconds", .heading = "processor time",
-               .unit = "s", .format = "%.3g");
-        error /= 10;
-    }
-}
-
-static void put_cheapest(struct br_document *d, const struct br_orders *o)
-{
-    br_put_table(d, "cheapest", "The cheapest run to each digit", 0);
-    for (size_t i = 0; i < o->count; i++)
-        if (!o->numbers->quantity[o->of[i].quantity].is_value)
-            put_cheapest_of(d, o, o->of[i].quantity);
-}
-
 /* Puts an order, and for programs the ends of its interval. */
 static void put_order(struct br_document *d, const struct br_estimate *order)
 {
@@ -788,10 +757,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
 
     put_triples(d, o);
     put_needed(d, o);
-    if (br_orders_costs_differ(o)) {
+    if (br_orders_costs_differ(o))
         put_costs(d, o->numbers);
-        put_cheapest(d, o);
-    }
     for (size_t i = 0; i < o->count; i++)
         put_rows(d, o, i, i + 1, BR_FOR_PROGRAMS);
     if (o->numbers->lefts)

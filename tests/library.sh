@@ -68,10 +68,10 @@ check "one version" versions "${said#beamrate }"
 # Nothing of the beam's: no linear algebra, no vectors, no scenes.
 needs() {
     readelf -d "$libraries/libbeamrate.so" | sed -n 's/.*NEEDED.*\[\(lib[a-z]*\).*/\1/p' | sort | tee needed
-    [ "$(grep -vcE '^lib(c|m|gsl|gslcblas|jansson|pthread)$' needed)" -eq 0 ] && grep -q libgsl needed &&
+    [ "$(grep -vcE '^lib(c|m|gsl|gslcblas|jansson|yaml|pthread)$' needed)" -eq 0 ] && grep -q libgsl needed &&
         ! grep -E 'scene|march' "$header"
 }
-check "it needs GSL and Jansson alone" needs
+check "it needs GSL, Jansson and libyaml alone" needs
 
 # ---- in C ----
 

@@ -10,6 +10,7 @@ import pickle
 import sys
 import tempfile
 import xml.etree.ElementTree
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -294,6 +295,35 @@ def check_plot(make):
     assert abs(limit - 7) <= min(around) + 1e-9 and "p = 1.00, GCI 0.11 %\nlimit 7" in of_value.title
 
 
+def check_trade(make):
+    sizes = np.array([8, 16, 32, 64])
+    low = {"n": sizes, "l2": 1.0 / sizes ** 2, "seconds": 1e-3 * sizes ** 2}
+    high = {"n": sizes, "l2": 1.0 / sizes ** 4, "seconds": 1e-2 * sizes ** 3}
+    found = br.trade({"low": low, "high": high})
+    assert repr(found).startswith("Cheapest to 1e-3: low, n = 32, 1.02 s; next: high, 5.12 s."), found
+    assert [(row["program"], row["to_error"]) for row in found.cheapest][-1] == ("high", 1e-7)
+    for row, growth, tenth in zip(found.growth, (2, 3), (10, 10 ** 0.75)):
+        close(row["growth"], growth, 1e-6)
+        close(row["tenth"], tenth, 1e-6)
+    close(found.growth[0]["needed"], 1e3, 1e-6)  # n = 1000
+    axes = found.plot(make())
+    assert axes.labels[0] == "front of all" and {"low", "high"} <= set(axes.labels), axes.labels
+    assert axes.drawn[0][1] == sorted(axes.drawn[0][1])
+    refused("table 1: found no column of a cost", lambda: br.trade([{"n": sizes, "l2": 1.0 / sizes}]))
+    refused("low measures l2; other measures h1", lambda: br.trade(
+        {"low": low, "other": {"n": sizes, "h1": 1.0 / sizes, "seconds": sizes ** 2}}))
+    refused("falls from", lambda: br.trade([low | {"seconds": 1.5 / sizes}]))
+    refused("axes: found 1, expected a list of 2", lambda: br.trade([low | {"h1": 2.0 / sizes}]).plot(make()))
+    with tempfile.TemporaryDirectory() as folder:
+        study = Path(folder) / "study.yaml"
+        study.write_text("run: /bin/sh -c 'echo l2 $((10000 / {n} / {n}))e-4'\nn: 10, 20, 40\n"
+                         "read: {l2: 'l2 (.+)'}\n")
+        refused("give trust=True", lambda: br.trade([study]))
+        assert [row["error"] for row in br.trade([study], trust=True).runs] == [100e-4, 25e-4, 6e-4]
+        Path(folder, "zero.csv").write_bytes(b"n\0")
+        refused("found a zero byte", lambda: br.trade([Path(folder) / "zero.csv"]))
+
+
 def check_refusals():
     refused("found no column of a resolution among", lambda: br.orders([3, 2, 1]))
     refused("--value", lambda: br.orders({"n": [1, 2, 3], "e": [1, -2, 3]}))
@@ -337,5 +367,6 @@ else:
     check_left_out()
     check_window()
     check_plot(Axes)
+    check_trade(Axes)
     check_refusals()
     assert statuses == {(br.BadInput, 1)}, statuses  # as beamrate.h has it, and no other number

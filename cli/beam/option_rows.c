@@ -148,6 +148,10 @@ static const struct br_option rows[] = {
          "A valid scene, with the meaning, unit and default of each key. An existing file is not "
          "replaced."},
 
+    {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
+     WHOLE(0, 4096), .commands = BR_FOR_TRADE,
+     .more = "Of the errors: trials, and programs, are timed one at a time."},
+
     /* another scene */
     {BR_OPT_SET, "set", 0, "KEY=VALUE",
      "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,

@@ -445,6 +445,58 @@ class Orders(_Handle):
         axes.set(xlabel=f"size {letter}", ylabel=group[0].name, title=f"{group[0].name}: " + "\n".join(title))
 
 
+class Trade(_Handle):
+    """What a digit costs in several programs. See trade().
+
+    cheapest, growth, runs: rows of the report's tables of these names.
+    """
+    _kind = "trade"
+
+    def __init__(self, tables, cost):
+        super().__init__()
+        _call("trade_read", byref(self.handle), (_Table * len(tables))(*tables), c_size_t(len(tables)), cost)
+        text = c_char_p()
+        _call("trade_report", self, byref(text))
+        self.report = json.loads(text.value)
+        self.cheapest, self.growth, self.runs = (self.report["tables"][key]
+                                                 for key in ("cheapest", "growth", "runs"))
+
+    def __repr__(self):
+        return "\n".join(self.report["answer"])
+
+    def plot(self, axes=None):
+        """Draws the errors over the costs: the stairs of each program's own best; dots: dearer and no
+        better; hollow: mostly the start of the program; grey: the front of all. Needs matplotlib. axes:
+        one for each quantity. Returns them: one, or a list."""
+        names = list(dict.fromkeys(row["quantity"] for row in self.runs))
+        if axes is None:
+            import matplotlib.pyplot
+            axes = matplotlib.pyplot.subplots(1, len(names), squeeze=False, figsize=(6.4 * len(names), 4.8))[1]
+        axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
+        if len(axes) < len(names):
+            raise BadInput(f"axes: found {len(axes)}, expected a list of {len(names)}")
+        for one, name in zip(axes, names):
+            self._plot(one, [row for row in self.runs if row["quantity"] == name])
+            one.set(xscale="log", yscale="log", xlabel=", ".join(filter(None, (self.report["cost"], self.report["cost_unit"]))), ylabel=f"error {name}")
+            one.legend()
+        return axes[0] if len(axes) == 1 else axes
+
+    @staticmethod
+    def _plot(axes, runs):
+        def draw(rows, *style, **more):
+            rows = sorted(rows, key=lambda row: row["cost"])
+            axes.plot([row["cost"] for row in rows], [row["error"] for row in rows], *style, **more)
+
+        draw([r for r in runs if r["front"]], color="0.85", linewidth=6, drawstyle="steps-post", label="front of all")
+        for i, program in enumerate(dict.fromkeys(row["program"] for row in runs)):
+            own = [r for r in runs if r["program"] == program and r["own_front"]]
+            draw(own, color=f"C{i}", linestyle=("-", "--", ":", "-.")[i % 4], drawstyle="steps-post")
+            for start in (False, True):
+                draw([r for r in own if bool(r["remark"]) == start], "os^Dv"[i % 5], color=f"C{i}",
+                     fillstyle="none" if start else "full", label=None if start else program)
+        draw([r for r in runs if not r["own_front"]], ".", color="0.6")
+
+
 # ---- orders of a table ----
 
 def _column(name, values):
@@ -517,6 +569,31 @@ def _finest(value):
     except TypeError:
         _refuse(TypeError, "finest", value, "a whole number (an integer)")
     return value if value == 0 or 3 <= value <= 1000 else _refuse(BadInput, "finest", value, "3 to 1000 sizes")
+
+
+def trade(sources, *, cost=None, trust=False):
+    """What a digit costs: errors over costs of several programs. A Trade, whose repr is the answer.
+
+    sources: a list, or a mapping of names to them: paths of tables and of study files (.yaml), pandas
+    DataFrames, mappings of names to lists of numbers. Each has a column of a cost, seconds, cpu, wall,
+    dofs, iterations or memory, or one that cost= names, and an error of a name that all have. Study
+    files run their commands, one at a time, until the times are known: read them, then trust=True.
+    """
+    named = sources.items() if hasattr(sources, "items") else [(None, data) for data in sources]
+    tables = []
+    for i, (name, data) in enumerate(named):
+        if isinstance(data, (str, os.PathLike)):
+            text = Path(data).read_bytes()
+            if b"\0" in text:
+                raise BadInput(f"{data}: found a zero byte, expected text")
+            study = Path(data).suffix in (".yaml", ".yml")
+            if study and not trust:
+                raise BadInput(f"{data}: it may run commands: read it, then give trust=True")
+            name = data if study or name is None else name
+        else:
+            text, name = _as_json(data, None, {}, {})[0], f"table {i + 1}" if name is None else name
+        tables.append(_Table(_text("name", str(name)), text, None, None, 0, 0, None, None))
+    return Trade(tables, None if cost is None else _text("cost", cost))
 
 
 def _pairs(name, pairs):

@@ -276,6 +276,25 @@ static void find_deviations(struct br_roles *r)
         }
 }
 
+/* For a trade: the column of costs is no error, and unknowns beside another size are a cost. */
+static void leave_costs(struct br_roles *r)
+{
+    const char *cost = r->wishes->cost;
+    bool sizes = false;
+    double factor;
+    for (size_t i = 0; i < r->columns; i++)
+        for (int s = 0; s < BR_RESOLUTIONS; s++)
+            sizes |= br_resolution_columns[s].axis == BR_AXIS_SPACE &&
+                     !br_resolution_columns[s].is_volume && r->column[i].odds[s] >= BR_USUAL_NAME;
+    for (struct br_role_column *c = r->column; c < r->column + r->columns && cost; c++)
+        if (c->name && !c->by_hand &&
+            ((strcmp(c->name, cost) == 0 && c->named < BR_USUAL_NAME) ||
+             (sizes && br_cost_of(c->name, c->unit, &factor) == BR_COST_DOFS))) {
+            c->by_hand = true;
+            c->why = "the cost";
+        }
+}
+
 enum br_status br_roles_take_headings(struct br_roles *r, struct br_error *err)
 {
     const char *item;
@@ -303,6 +322,7 @@ enum br_status br_roles_take_headings(struct br_roles *r, struct br_error *err)
         gci |= c->name && strcasestr(c->name, "gci");
     }
     find_deviations(r);
+    leave_costs(r);
     for (size_t i = 0; i < r->columns && gci; i++) /* r is the ratio of two sizes, p one order */
         if (r->column[i].name && !r->column[i].name[1] && strchr("rp", *r->column[i].name) &&
             !r->column[i].by_hand)

@@ -34,6 +34,9 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
+/* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or bytes. */
+enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
+
 /* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
 int br_power_in(const char *name, char base[20]);
 
@@ -93,7 +96,8 @@ struct br_table_wishes {
     const char *columns;   /* "dx=h,3=l2" */
     const char *where;     /* "method=P1" */
     char *errors, *values; /* lists; names of one column but for their case get its case */
-    double dimension;      /* 0: nobody stated it */
+    const char *cost;
+    double dimension; /* 0: nobody stated it */
 };
 
 /* From here on a name is a usual one: of one meaning, or of any. */
