@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/beam/run.h"
 #include "base/clock.h"
+#include "cli/beam/run.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "plots/beam/pictures.h"
@@ -180,10 +180,10 @@ static enum br_status prepare(struct scene_run *r, struct br_error *err)
 {
     if (open_scene(r, err) || predict(r, err) || open_files(r, err))
         return err->status;
-    struct br_cost_estimate work = {.alone = true};
+    struct br_costs work = {.alone = true};
     const struct br_planned_march one = planned(&r->plan);
     br_print_warnings("", &r->warnings);
-    br_cost_estimate_add_march(&work, &one);
+    br_costs_add_march(&work, &one);
     br_session_announce(r->session, &work);
     return BR_OK;
 }
@@ -257,9 +257,9 @@ static enum br_status run(const struct br_options *options, struct br_session *s
     if (!br_ranks_first())
         return BR_OK; /* one rank does a single march */
     r = (struct scene_run){.options = options,
-                     .session = session,
-                     .out = br_option_text(options, BR_OPT_OUT),
-                     .json = br_option_text(options, BR_OPT_JSON)};
+                           .session = session,
+                           .out = br_option_text(options, BR_OPT_OUT),
+                           .json = br_option_text(options, BR_OPT_JSON)};
     const bool failed =
         prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
     close_results(&r, NULL, NULL);
