@@ -51,7 +51,7 @@ static bool is_taken(struct br_kept *kept)
                                               .reading = &reading,
                                               .readings = 1,
                                               .jobs = 1,
-                                              .seconds = 10,
+                                              .seconds = 600,
                                               .kept = kept->folder,
                                               .anew = !kept->take};
     MUST(br_program_run(&request, &numbers, &err));
