@@ -11,7 +11,7 @@ mkdir "$work/tree" "$work/bin" || exit 1
 cp -r "$source/.ci" "$work/tree/"
 sed -n 's/^!\([^"]*\)"*$/skipped: \1/p' "$source/.ci/run" >"$work/skips"
 [ "$(wc -l <"$work/skips")" -ge 10 ] || exit 1
-for program in mkdocs c++; do
+for program in mkdocs c++ clang-format-14; do
     printf '#!/bin/sh\n' >"$work/bin/$program" && chmod +x "$work/bin/$program"
 done
 printf '#!/bin/sh\nexec "$@"\n' >"$work/tree/.ci/without" # what it hides, .ci/run itself sees

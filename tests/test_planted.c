@@ -5,7 +5,7 @@
  * program must: it is built with the bug, and must fail. By default only a sample is planted: the
  * first bug of each command or test program that must detect it, of each folder, and of each kind.
  * usage: test_planted [SHARD SHARDS | NAME]: one of several shares, which can run side by side, or
- * one bug. */
+ * one bug; without words, only whether each can be planted. */
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -304,10 +304,10 @@ int main(int argc, char **argv)
 {
     const char *name = argc == 2 ? argv[1] : NULL;
     const size_t shard = argc == 3 ? strtoul(argv[1], NULL, 10) : 0;
-    const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 1;
+    const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 0;
     static struct CMUnitTest tests[1 + PLANTED_BUGS] = {cmocka_unit_test(all_can_be_planted)};
-    size_t count = !name && shard == 0, chosen = 0;
-    for (size_t i = 0; i < PLANTED_BUGS; i++)
+    size_t count = argc == 1, chosen = 0;
+    for (size_t i = 0; i < PLANTED_BUGS && argc > 1; i++)
         if (name ? strcmp(planted_bugs[i].name, name) == 0
                  : (br_test_long() || is_in_sample(i)) && chosen++ % shards == shard)
             tests[count++] = (struct CMUnitTest){planted_bugs[i].name, bug_is_caught, NULL, NULL,

@@ -62,9 +62,9 @@ def targets_of(test, build):
 
 def run(test, seconds):
     """Its exit code and its seconds; of processor time it may take as many and no more."""
-    begun = time.monotonic()
-    code = subprocess.run(["sh", "-c", 'ulimit -c 0; ulimit -t "$0"; exec timeout -s KILL "$@"', str(int(seconds) + 1),
-                           str(20 * seconds), *test["cmd"]], env={**os.environ, **test["env"]}, cwd=test["workdir"],
+    begun, limits = time.monotonic(), 'ulimit -c 0; ulimit -t "$0"; exec timeout -s KILL "$@"'
+    code = subprocess.run(["sh", "-c", limits, str(int(seconds) + 1), str(20 * seconds), *test["cmd"]],
+                          env={**os.environ, **test["env"], "CMOCKA_TEST_ABORT": "1"}, cwd=test["workdir"],
                           stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
     return code, time.monotonic() - begun
 
@@ -82,18 +82,22 @@ def lines_run(tree, build):
 
 
 def measure(tree, build, wanted):
-    """Each test that passes: name, seconds, and the lines that it runs."""
-    tests = json.loads(output_of("meson", "introspect", "--tests", build))
-    for test in tests:
-        names = {test["name"], *(suite.split(":")[-1] for suite in test["suite"])}
-        if test["name"].startswith(("planted", "mutate")) or (wanted and not names & set(wanted)):
+    """Each test that passes, its seconds, and the lines that it runs: anew where its programs are others."""
+    stored = build.parent / "lines.json"
+    known = json.loads(stored.read_text()) if stored.exists() else {}
+    for test in json.loads(output_of("meson", "introspect", "--tests", build)):
+        name, names = test["name"], {test["name"], *(suite.split(":")[-1] for suite in test["suite"])}
+        if name.startswith(("planted", "mutate")) or (wanted and not names & set(wanted)):
             continue
-        for counts in build.rglob("*.gcda"):
-            counts.unlink()
-        code, seconds = run(test, LONGEST)
-        print(f"# {test['name']}: exit code {code}, {seconds:.1f} s", file=sys.stderr)
-        if code == 0:
-            yield test, seconds, lines_run(tree, build)
+        programs = [digest(build / target) for target in targets_of(test, build)]
+        if known.get(name, [0])[0] != programs:
+            for counts in build.rglob("*.gcda"):
+                counts.unlink()
+            code, seconds = run(test, LONGEST)
+            print(f"# {name}: exit code {code}, {seconds:.1f} s", file=sys.stderr)
+            known[name] = [programs, seconds, sorted(lines_run(tree, build)) if code == 0 else []]
+            stored.write_text(json.dumps(known))
+        yield test, known[name][1], [tuple(line) for line in known[name][2]]
 
 
 def without_text(line):
@@ -123,10 +127,12 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def try_change(tree, build, file, tests):
-    """What becomes of the planted change: "same", "does not build", the test that sees it, or ""."""
+def try_change(tree, build, file, text, tests):
+    """What becomes of the file with this text: "same", "does not build", the test that sees it, or ""."""
     made = object_of(build, tree, file)
+    output_of("ninja", "-C", build, made)
     before = digest(build / made)
+    (tree / file).write_text(text)
     if subprocess.run(["ninja", "-C", build, made], stdout=subprocess.DEVNULL).returncode:
         return "does not build"
     if digest(build / made) == before:
@@ -164,8 +170,7 @@ def main():
             continue
         changed = [*lines[:number - 1], draw.choice(changes), *lines[number:]]
         try:
-            (tree / file).write_text("".join(changed))
-            seen = try_change(tree, build, file, sorted(covered[file, number], key=lambda row: row[1]))
+            seen = try_change(tree, build, file, "".join(changed), sorted(covered[file, number], key=lambda r: r[1]))
         finally:
             (tree / file).write_text(text)
         if seen in ("same", "does not build"):
