@@ -43,6 +43,9 @@ static const struct {
     {" & \\multicolumn{2}{c}{P1} & \\multicolumn{2}{c}{P2} \\\\\n$N$ & e & EOC & e & EOC \\\\\n"
      "10 & 1 & -- & 2 & -- \\\\\n20 & .25 & 2 & .5 & 2 \\\\\n",
      "$N$|P1 e|P1 EOC|P2 e|P2 EOC|\n10|1|--|2|--|\n20|.25|2|.5|2|\n"},
+    {" & \\multicolumn{2}c{P1} & \\multicolumn{2}{c}{P2} \\\\\n$N$ & e & EOC & f & EOC \\\\\n"
+     "10 & 1 & -- & 2 & -- \\\\\n20 & .25 & 2 & .5 & 2 \\\\\n",
+     "$N$|e|EOC|f|EOC|\n10|1|--|2|--|\n20|.25|2|.5|2|\n1 title\n"},
     {"ref | ||e|| | rate\n0 | 4 | -\n1 | 1 | 2\n", "ref|||e|||rate|\n0|4|-|\n1|1|2|\n"},
     {"|**N**|`e`|\n|8|**1**|\n|16||\n", "N|e|\n8|**1**|\n16||\n"},
     {"  n    e rate\n1  8  .1   NA\n2 16 .02  2.3\n", "~|n|e|rate|\n1|8|.1|NA|\n2|16|.02|2.3|\n"},
@@ -167,6 +170,7 @@ static const struct {
     {"{\"a\":[1,2],\"b\":[1]}", ":t: found 2 values, but 1 of b"},
     {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
+    {"{\"h\":1}\n{\"h\":.5}\n", ":t:2: found no valid JSON"},
 };
 
 static void add_rows(char *text, size_t size, const struct br_fields *f)
