@@ -55,7 +55,7 @@ const struct br_quoting br_for_csv = {
     .bare = "",
     .rough = ",\"\n\r",
     .start = "=+-@",
-    .guard = "'",
+    .prefix = "'",
     .stead = {{'"', "\"\""}},
 };
 
@@ -173,14 +173,14 @@ static const char *quotes(const struct br_quoting *target, const char *text)
     return rough ? target->around : target->bare;
 }
 
-static const char *guard(const struct br_quoting *target, const char *text)
+static const char *prefix(const struct br_quoting *target, const char *text)
 {
     char *end;
     const char *first = text + strspn(text, " \t\r\n"); /* spreadsheets skip blanks, too */
     if (!target->start || !*first || !strchr(target->start, *first))
         return "";
     strtod(first, &end);
-    return *end ? target->guard : "";
+    return *end ? target->prefix : "";
 }
 
 /* ---- writing ---- */
@@ -188,7 +188,7 @@ static const char *guard(const struct br_quoting *target, const char *text)
 void br_quote(FILE *out, const struct br_quoting *target, const char *text)
 {
     const bool bare = quotes(target, text) != target->around;
-    fprintf(out, "%s%s", quotes(target, text), guard(target, text));
+    fprintf(out, "%s%s", quotes(target, text), prefix(target, text));
     for (const char *c = text; *c;) {
         char piece[PIECE];
         c += next_piece(bare ? &br_for_text : target, c, piece);
@@ -202,7 +202,7 @@ char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, cons
     const char *around = quotes(target, text);
     const bool bare = around != target->around;
     const size_t end = strlen(around) + 1;
-    size_t used = (size_t)snprintf(buffer, size, "%s%s", around, guard(target, text));
+    size_t used = (size_t)snprintf(buffer, size, "%s%s", around, prefix(target, text));
     while (*text) {
         char piece[PIECE];
         text += next_piece(bare ? &br_for_text : target, text, piece);

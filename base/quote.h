@@ -22,7 +22,7 @@ struct br_quoting {
     const char *rough;
     bool nothing;        /* an empty text gets `around`, too */
     const char *start;   /* a text that begins with one of these, behind blanks, and is no number */
-    const char *guard;   /* gets this prefix */
+    const char *prefix;  /* gets this prefix */
     const char *escaped; /* characters that get a backslash before them */
     const char *broken[2]; /* texts that get a blank before their last character */
     struct br_stead {

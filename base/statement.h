@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A request in words: all that its numbers follow from, as one text. Work that is kept belongs to
- * such a text (base/kept.h), and ranks compare theirs.
+/* A request in words: all that its numbers follow from, as one text. Cached work belongs to such
+ * a text (base/cache.h), and ranks compare theirs.
  *
  * A line for each thing: its name, the bytes of its value, and the value. So two requests have the
  * same text only where all values are the same. */

@@ -15,7 +15,7 @@ struct item {
     struct br_check *check;     /* of that study; NULL: it is another source */
 };
 
-struct run {
+struct check_run {
     const struct br_options *options; /* borrowed, as the next three */
     struct br_session *session;
     const struct br_other_sources *other;
@@ -30,7 +30,7 @@ struct run {
 
 /* ---- reading ---- */
 
-static enum br_status read_study(struct run *r, struct item *item, const char *text,
+static enum br_status read_study(struct check_run *r, struct item *item, const char *text,
                                  struct br_error *err)
 {
     const struct br_options *o = r->options;
@@ -47,7 +47,7 @@ static enum br_status read_study(struct run *r, struct item *item, const char *t
     return BR_OK;
 }
 
-static enum br_status find(const struct run *r, const char *name, struct item *item,
+static enum br_status find(const struct check_run *r, const char *name, struct item *item,
                            struct br_error *err)
 {
     const char *dot = strrchr(name, '.');
@@ -65,7 +65,7 @@ static enum br_status find(const struct run *r, const char *name, struct item *i
                    sizeof item->path - 1);
 }
 
-static enum br_status read_source(struct run *r, size_t i, struct br_error *err)
+static enum br_status read_source(struct check_run *r, size_t i, struct br_error *err)
 {
     struct item *item = &r->item[i];
     char *text = NULL;
@@ -86,7 +86,7 @@ static enum br_status read_source(struct run *r, size_t i, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-static enum br_status read_all(struct run *r, struct br_error *err)
+static enum br_status read_all(struct check_run *r, struct br_error *err)
 {
     r->item = br_allocate(r->most + 1, sizeof *r->item);
     r->check = br_allocate(r->most + 1, sizeof *r->check);
@@ -101,7 +101,7 @@ static enum br_status read_all(struct run *r, struct br_error *err)
 /* ---- computing ---- */
 
 /* Runs the studies of other programs. */
-static enum br_status run_studies(struct run *r, const struct br_observer *observer,
+static enum br_status run_studies(struct check_run *r, const struct br_observer *observer,
                                   struct br_error *err)
 {
     for (struct item *item = r->item; item < r->item + r->most; item++) {
@@ -112,7 +112,7 @@ static enum br_status run_studies(struct run *r, const struct br_observer *obser
     return BR_OK;
 }
 
-static enum br_status compute(struct run *r, struct br_error *err)
+static enum br_status compute(struct check_run *r, struct br_error *err)
 {
     const double start = br_seconds();
     const struct br_observer *observer = br_progress_start("checking", r->session->quiet);
@@ -126,7 +126,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status write_all(struct run *r, bool whole, struct br_error *err)
+static enum br_status write_all(struct check_run *r, bool whole, struct br_error *err)
 {
     const struct br_check_findings findings = {
         .checks = r->check,
@@ -139,7 +139,7 @@ static enum br_status write_all(struct run *r, bool whole, struct br_error *err)
 }
 
 /* Prepares what the reports need, so that a failure comes before the long computation. */
-static enum br_status prepare_reports(struct run *r, struct br_error *err)
+static enum br_status prepare_reports(struct check_run *r, struct br_error *err)
 {
     bool failed = br_verdicts_open(&r->verdicts, r->options, r->check, r->count, err);
     for (size_t i = 0; i < r->most && !failed; i++)
@@ -151,7 +151,7 @@ static enum br_status prepare_reports(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static void clear(struct run *r)
+static void clear(struct check_run *r)
 {
     for (size_t i = 0; r->check && i < r->count; i++)
         br_check_clear(&r->check[i]);
@@ -167,8 +167,8 @@ enum br_status br_check_sources(const struct br_options *options, struct br_sess
                                 char *const *name, size_t count, bool whole,
                                 const struct br_other_sources *other, struct br_error *err)
 {
-    static struct run r;
-    r = (struct run){
+    static struct check_run r;
+    r = (struct check_run){
         .options = options, .session = session, .other = other, .name = name, .most = count};
     const bool writes = session->writes;
     bool failed = read_all(&r, err) || (writes && prepare_reports(&r, err)) || compute(&r, err) ||

@@ -22,6 +22,8 @@ enum {
     BR_FOR_COMPLETIONS = 512,
     BR_FOR_HELP = 1024,
     BR_FOR_ORDERS = 2048,
+    /* those that take the options of the method */
+    BR_FOR_MARCHES = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN,
 };
 
 /* In the order of the help. */

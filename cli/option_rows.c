@@ -7,9 +7,6 @@
 BR_WORDS(format, br_document_formats)
 const struct br_words br_format_words = {format_name, format_title, NULL};
 
-/* Commands that march. */
-enum { MARCHES = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN };
-
 #define WHOLE(low, high) BR_RANGE(low, high, true)
 #define BETWEEN(low, high) BR_RANGE(low, high, false)
 #define OWN BR_OWN
@@ -103,18 +100,18 @@ static const struct br_option rows[] = {
      "write the results into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not exist."},
 
-    /* what is kept */
-    {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are kept", NULL, BR_TAKES_FLAG,
+    /* what is cached */
+    {BR_OPT_RESUME, "resume", 0, NULL, "use finished runs that are cached", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_ORDERS,
-     .more = "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
-             "or in orders-kept without --out. A run is used again if its words, its program and "
+     .more = "After an interruption, or for a larger grid. Finished runs are cached in DIR/.cache, "
+             "or in orders-cache without --out. A run is used again if its words, its program and "
              "the files that its words name are the same. Other files that the program reads or "
              "starts are not checked: do not give this option if they have changed."},
 
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
      BR_TAKES_DIR,
-     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
+     .commands = BR_FOR_MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      OWN({BR_FOR_TABLES, .standard = "results", .help = folder},
          {BR_FOR_STUDY, .standard = "results/study", .help = folder},
          {BR_FOR_TRADE, .standard = "trade", .help = folder},
@@ -134,7 +131,7 @@ static const struct br_option rows[] = {
      .more = "The results are the same for any number, to the bit."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
      BR_TAKES_FLAG,
-     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
+     .commands = BR_FOR_MARCHES | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

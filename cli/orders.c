@@ -12,13 +12,13 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 
-struct run {
+struct orders_run {
     const struct br_options *options; /* borrowed */
     struct br_session *session;       /* borrowed */
     struct br_study_file study;
     struct br_check check;
     struct br_verdicts verdicts;
-    char kept[1100]; /* the folder of finished runs */
+    char cache[1100]; /* the folder of finished runs */
     double wall_seconds;
 };
 
@@ -144,7 +144,7 @@ static enum br_status read_study(const char *path, const struct br_options *o,
     return failed ? err->status : BR_OK;
 }
 
-static enum br_status read_request(struct run *r, struct br_error *err)
+static enum br_status read_request(struct orders_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const char *word = o->words ? o->word[0] : NULL;
@@ -165,7 +165,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
 }
 
 /* Checks all that can be checked before a program is run. */
-static enum br_status prepare(struct run *r, struct br_error *err)
+static enum br_status prepare(struct orders_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     static const enum br_option_id of_verdicts[] = {BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE,
@@ -180,15 +180,15 @@ static enum br_status prepare(struct run *r, struct br_error *err)
                         br_verdicts_spare(&r->verdicts, r->study.request.table_path, err) ||
                         br_session_open(r->session, err);
     const bool open = br_output_is_open(&r->session->output);
-    snprintf(r->kept, sizeof r->kept, open ? "%s/.kept" : "%sorders-kept",
+    snprintf(r->cache, sizeof r->cache, open ? "%s/.cache" : "%sorders-cache",
              open ? r->session->output.folder : "");
-    r->study.request.kept = r->kept;
+    r->study.request.cache = r->cache;
     return failed ? err->status : BR_OK;
 }
 
 /* ---- computing ---- */
 
-static enum br_status compute(struct run *r, struct br_error *err)
+static enum br_status compute(struct orders_run *r, struct br_error *err)
 {
     const double start = br_seconds();
     const bool quiet = r->session->quiet || !r->study.request.command;
@@ -201,7 +201,8 @@ static enum br_status compute(struct run *r, struct br_error *err)
 
 /* ---- results ---- */
 
-static enum br_status build_report(struct run *r, struct br_document *d, struct br_error *err)
+static enum br_status build_report(struct orders_run *r, struct br_document *d,
+                                   struct br_error *err)
 {
     const char *caption = r->check.name;
     struct br_estimate growth[BR_AXES];
@@ -219,23 +220,23 @@ static enum br_status build_report(struct run *r, struct br_document *d, struct 
 }
 
 /* Writes the orders, and the verdicts where something is expected. */
-static enum br_status write_all(struct run *r, struct br_error *err)
+static enum br_status write_all(struct orders_run *r, struct br_error *err)
 {
     const struct br_check_findings findings = {
         .checks = &r->check, .count = 1, .wall_seconds = r->wall_seconds};
-    const bool judged = r->study.request.expectations > 0;
-    if (br_session_report(r->session, judged ? 2 : 1, err) ||
+    const bool checked = r->study.request.expectations > 0;
+    if (br_session_report(r->session, checked ? 2 : 1, err) ||
         build_report(r, &r->session->document[0], err))
         return err->status;
-    return judged ? br_verdicts_finish(&r->verdicts, r->session, &findings, true, err)
-                  : br_verdicts_write(&r->verdicts, r->session, NULL, err);
+    return checked ? br_verdicts_finish(&r->verdicts, r->session, &findings, true, err)
+                   : br_verdicts_write(&r->verdicts, r->session, NULL, err);
 }
 
 static enum br_status run(const struct br_options *options, struct br_session *session,
                           struct br_error *err)
 {
-    static struct run r;
-    r = (struct run){.options = options, .session = session};
+    static struct orders_run r;
+    r = (struct orders_run){.options = options, .session = session};
     const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
                         compute(&r, err) || write_all(&r, err) ||
                         br_numbers_check_runs(&r.study.numbers, err);

@@ -13,8 +13,8 @@ static bool has_floor(const struct br_case *c)
            c->law == br_law_text(BR_LAW_OFFSET);
 }
 
-struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
-                                            const struct br_quantity_orders *of)
+struct br_orders_forecast br_orders_forecast_of(const struct br_orders *o,
+                                                const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = br_orders_is_grid(o) || !of->lines ? NULL : &of->line[0];
     struct br_orders_forecast f = {.line = NULL};

@@ -309,19 +309,19 @@ static bool is_hidden(const struct br_orders *o, const struct br_quantity_orders
     static const double share = 0.1;
     const enum br_axis other = line->axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
     const struct br_point *finest = finest_of(&line->observed),
-                          *apart = finest_of(&of->differences[other].observed);
+                          *alone = finest_of(&of->differences[other].observed);
     const double p = o->numbers->quantity[of->quantity].formal[other];
-    return finest && apart &&
-           apart->error * pow(o->numbers->row[line->row[0]].z[other], p) >
-               share * finest->error * (pow(apart->z, p) - pow(apart->z_against, p));
+    return finest && alone &&
+           alone->error * pow(o->numbers->row[line->row[0]].z[other], p) >
+               share * finest->error * (pow(alone->z, p) - pow(alone->z_against, p));
 }
 
 /* Whether differences are the answer. They do not depend on the other axis: where they show the
  * order so well, a grid does not show more, and where they contradict it, it is wrong. */
-static bool are_better(const struct br_orders_answer *apart, const struct br_orders_answer *grid)
+static bool are_better(const struct br_orders_answer *alone, const struct br_orders_answer *grid)
 {
     static const double clear = 0.02;
-    const struct br_estimate *a = &apart->order, *b = &grid->order;
+    const struct br_estimate *a = &alone->order, *b = &grid->order;
     return grid->open || width_of(a) <= fmax(clear, width_of(b)) || a->high < b->low ||
            b->high < a->low;
 }
@@ -340,9 +340,9 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     grid = believed(grid, q->formal[axis]);
     if (!line->observed.point)
         return grid;
-    const struct br_orders_answer apart = believed(
+    const struct br_orders_answer alone = believed(
         (struct br_orders_answer){line->observed.order, NULL, .line = line}, q->formal[axis]);
-    return are_better(&apart, &grid) ? apart : grid;
+    return are_better(&alone, &grid) ? alone : grid;
 }
 
 /* The finest row of a line that has a number; the number of rows: there is none. */

@@ -55,7 +55,7 @@ struct br_numbers_row {
     size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
-    bool kept;                   /* whether its numbers were kept from an earlier run */
+    bool cached;                 /* whether its numbers are those of an earlier run */
     char *failure;               /* why it has no numbers; NULL: it has; owned */
 };
 
@@ -224,8 +224,8 @@ struct br_orders_forecast {
     double number;                     /* the finest error; of a value its GCI */
     double order, z, ratio;            /* order; size of that row, over the next coarser one */
 };
-struct br_orders_forecast br_orders_foresee(const struct br_orders *orders,
-                                            const struct br_quantity_orders *of);
+struct br_orders_forecast br_orders_forecast_of(const struct br_orders *orders,
+                                                const struct br_quantity_orders *of);
 
 /* The error, or GCI, one step finer, by the same ratio; *given (out): the size, as it is stated. */
 double br_orders_next(const struct br_orders *orders, const struct br_orders_forecast *f,
@@ -275,9 +275,9 @@ enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 
-/* Judges each expectation: on a grid of errors by the answer, else on the line at the finest size
- * of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a quantity or an axis
- * is missing, or with BR_NO_MEMORY. */
+/* Finds the verdict on each expectation: on a grid of errors by the answer, else on the line at the
+ * finest size of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a
+ * quantity or an axis is missing, or with BR_NO_MEMORY. */
 enum br_status br_orders_check(const struct br_orders *orders,
                                const struct br_order_expectation *expectations, size_t count,
                                struct br_check *check, struct br_error *err);

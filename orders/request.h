@@ -67,9 +67,9 @@ struct br_orders_request {
     double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
-    const char *kept;                   /* the folder of finished cells, made where it is missing;
-                                           NULL: none */
-    bool anew;                          /* whether cells that are kept are run again */
+    const char *cache;                  /* the folder of finished cells, made where it is missing;
+                                          NULL: none */
+    bool anew;                          /* whether cached cells are run again */
     const struct br_observer *observer; /* may be NULL */
 };
 struct br_orders_request br_orders_request_default(void);
@@ -100,9 +100,10 @@ double br_orders_dimension(const struct br_orders_request *request,
 
 /* ---- tables ---- */
 
-/* The source: a table (orders/reading/roles.h says how it is read). Without errors and values in the
- * request, every column that falls as errors do is an error. Where a column tells several studies
- * apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is empty,
+/* The source: a table (orders/reading/roles.h says how it is read). Without errors and values in
+ * the request, every column that falls as errors do is an error. Where a column tells several
+ * studies apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is
+ * empty,
  * "-", "nan" or "***" is a run without a number. numbers->taken (out) says what was taken for what.
  */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,
@@ -110,10 +111,10 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
 
 /* ---- programs ---- */
 
-/* The source. Runs each cell of the list, or of the grid of two lists, that is not kept, and reads
- * its numbers. A cell runs without a shell, in a folder of its own, which is removed afterwards,
- * with LC_ALL=C and no input. When it ends, all that it has started is killed (process.h). A
- * reading is an error, unless it is listed as a value.
+/* The source. Runs each cell of the list, or of the grid of two lists, that is not cached, and
+ * reads its numbers. A cell runs without a shell, in a folder of its own, which is removed
+ * afterwards, with LC_ALL=C and no input. When it ends, all that it has started is killed
+ * (process.h). A reading is an error, unless it is listed as a value.
  *
  * numbers (out; zeros after a failure): the whole grid, from coarse to fine, first over space. A
  * run that fails, prints more than 16 MiB or prints a number that is not whole and finite has a
@@ -122,8 +123,8 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
  * the kernel's number includes that.
  *
  * BR_BAD_INPUT: a command, list or reading is not valid, the program cannot be found or started.
- * BR_INTERRUPTED: the observer stops it; runs are killed, finished cells stay kept.
- * BR_IO: no folder to run in, or a cell cannot be kept. */
+ * BR_INTERRUPTED: the observer stops it; runs are killed, finished cells stay cached.
+ * BR_IO: no folder to run in, or a cell cannot be cached. */
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 

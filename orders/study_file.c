@@ -180,7 +180,7 @@ static enum br_status take_pairs(const struct br_yaml *r, const struct key *key,
 }
 
 static enum br_status take_entry(const struct br_yaml *r, const yaml_node_pair_t *pair,
-                                 bool seen[KEYS], struct br_orders_request *request)
+                                 bool given[KEYS], struct br_orders_request *request)
 {
     const yaml_node_t *name = yaml_document_get_node(r->document, pair->key);
     const yaml_node_t *value = yaml_document_get_node(r->document, pair->value);
@@ -192,9 +192,9 @@ static enum br_status take_entry(const struct br_yaml *r, const yaml_node_pair_t
         names[i] = keys[i].name;
         if (strcmp(keys[i].name, text) != 0)
             continue;
-        if (seen[i])
+        if (given[i])
             return br_yaml_refuse(r, br_yaml_line(name), text, "is given twice");
-        seen[i] = true;
+        given[i] = true;
         return keys[i].pairs ? take_pairs(r, &keys[i], value, request)
                              : take_scalar(r, &keys[i], name, value, request);
     }
@@ -203,11 +203,11 @@ static enum br_status take_entry(const struct br_yaml *r, const yaml_node_pair_t
 }
 
 /* Refuses keys of runs in a study of a table. */
-static enum br_status check_table(const struct br_yaml *r, const bool seen[KEYS])
+static enum br_status check_table(const struct br_yaml *r, const bool given[KEYS])
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     for (size_t i = 0; i < KEYS; i++)
-        if (seen[i] && keys[i].of_runs)
+        if (given[i] && keys[i].of_runs)
             return br_yaml_refuse(r, br_yaml_line(root), keys[i].name,
                                   "is given beside 'table', expected beside 'run' only");
     return BR_OK;
@@ -217,18 +217,18 @@ static enum br_status take_study(const struct br_yaml *r, void *self)
 {
     struct br_orders_request *request = self;
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
-    bool seen[KEYS] = {false};
+    bool given[KEYS] = {false};
     enum br_status status = BR_OK;
     if (!root || root->type != YAML_MAPPING_NODE)
         return br_yaml_refuse(r, 1, "study", "expected a mapping of keys to values");
     for (yaml_node_pair_t *p = root->data.mapping.pairs.start;
          p < root->data.mapping.pairs.top && !status; p++)
-        status = take_entry(r, p, seen, request);
+        status = take_entry(r, p, given, request);
     if (!status && !request->command == !request->table)
         status = br_yaml_refuse(r, br_yaml_line(root), "study",
                                 "expected 'run' or 'table', one of the two");
     if (!status && request->table)
-        status = check_table(r, seen);
+        status = check_table(r, given);
     if (!status && request->command && request->readings == 0)
         status = br_yaml_refuse(r, br_yaml_line(root), "read",
                                 "missing, expected what is read of the output");

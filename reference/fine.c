@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The paper's judge: a fine run of the same scheme. It shares every bug of the
+/* The paper's reference: a fine run of the same scheme. It shares every bug of the
  * solver, and has an error of its own. */
 #include <math.h>
 
 #include "base/clock.h"
-#include "reference/judge.h"
+#include "reference/reference.h"
 
 /* Where a step advances both fields, each field has a march of its own. */
 struct fine {
@@ -26,7 +26,7 @@ static void fine_free(void *self)
 }
 
 static enum br_status create_march(struct fine *f, enum br_field_kind kind,
-                                   const struct br_judge_request *r, struct br_error *err)
+                                   const struct br_reference_request *r, struct br_error *err)
 {
     const enum br_status status =
         br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
@@ -35,7 +35,7 @@ static enum br_status create_march(struct fine *f, enum br_field_kind kind,
     return status;
 }
 
-static enum br_status fine_create(void **self, const struct br_judge_request *r,
+static enum br_status fine_create(void **self, const struct br_reference_request *r,
                                   struct br_error *err)
 {
     struct fine *f = br_allocate(1, sizeof *f);
@@ -77,7 +77,8 @@ static void fine_sample(void *self, const struct br_sample_at *at, struct br_vie
 }
 
 /* The predicted round-off at the end, relative to the largest displacement of all times: cells are
- * judged by the same (study/fit/fit.c). br_march_round_off would also cover the first steps. */
+ * measured against the same (study/fit/fit.c). br_march_round_off would also cover the first steps.
+ */
 static double round_off(const struct fine *f)
 {
     double largest = 0;
@@ -88,10 +89,10 @@ static double round_off(const struct fine *f)
     return largest;
 }
 
-static struct br_judge_report fine_report(const void *self)
+static struct br_reference_report fine_report(const void *self)
 {
     const struct fine *f = self;
-    struct br_judge_report report = {
+    struct br_reference_report report = {
         .round_off = round_off(f),
         .seconds = f->seconds[BR_AXIAL] + f->seconds[BR_BENDING],
         .unstable = br_march_contact_unstable(f->march[BR_AXIAL]),
@@ -106,7 +107,7 @@ static void fine_print_notes(const void *self, FILE *out)
     (void)self, (void)out;
 }
 
-const struct br_judge br_judge_fine = {
+const struct br_reference br_reference_fine = {
     .name = "fine",
     .syntax = "fine:N,K",
     .title = "a run of the same scheme with N elements and steps of K seconds",

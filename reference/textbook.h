@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes, laws and element matrices as the literature prints them. Judges of the solver use
+/* Time schemes, laws and element matrices as the literature prints them. Checks of the solver use
  * them; the solver does not. */
 #ifndef BR_REFERENCE_TEXTBOOK_H
 #define BR_REFERENCE_TEXTBOOK_H

@@ -14,11 +14,11 @@ void br_breaks_free(struct br_breaks *b)
     *b = (struct br_breaks){0};
 }
 
-/* The sign of a guard in an interval. ZERO: it is zero everywhere there. */
+/* The sign of a switching function in an interval. ZERO: it is zero everywhere there. */
 enum sign { NEGATIVE = -1, ZERO, POSITIVE, UNDECIDED };
 
 struct zero_search {
-    const struct br_function *guard;
+    const struct br_function *switching;
     enum br_variable along;
     struct br_box box;
     struct br_breaks *out;
@@ -40,14 +40,14 @@ static enum sign sign_of(bool bounded, iv a)
 static enum sign sign_on(const struct zero_search *s, iv part)
 {
     iv value;
-    const bool bounded = br_function_bound(s->guard, with(s->box, s->along, part), &value);
+    const bool bounded = br_function_bound(s->switching, with(s->box, s->along, part), &value);
     return sign_of(bounded, value);
 }
 
 static void refuse(struct zero_search *s, iv part, const char *what)
 {
     char position[80];
-    br_name_position(s->guard, with(s->box, s->along, part), position);
+    br_name_position(s->switching, with(s->box, s->along, part), position);
     s->status = br_fail(s->err, BR_BAD_INPUT, "%s near %s", what, position);
 }
 
@@ -64,7 +64,7 @@ static void add_break(struct zero_search *s, iv at)
         s->out->at[s->out->count++] = at;
 }
 
-/* The guard has this sign in the next interval. */
+/* The switching function has this sign in the next interval. */
 static void settle(struct zero_search *s, iv part, enum sign sign)
 {
     if (sign != s->before && s->before != UNDECIDED)
@@ -74,8 +74,8 @@ static void settle(struct zero_search *s, iv part, enum sign sign)
     s->before = sign;
 }
 
-/* By bisection, the last number from `from` towards `to` (which may be smaller) at which the guard
- * is known to have the sign that it has at `from`. */
+/* By bisection, the last number from `from` towards `to` (which may be smaller) at which the
+ * switching function is known to have the sign that it has at `from`. */
 static double last_with(const struct zero_search *s, double from, double to, enum sign sign)
 {
     for (double m = from + (to - from) / 2; m != from && m != to; m = from + (to - from) / 2)
@@ -86,7 +86,8 @@ static double last_with(const struct zero_search *s, double from, double to, enu
     return from;
 }
 
-/* Finds the one zero, if any, of a guard that rises (up) or falls everywhere in the interval. */
+/* Finds the one zero, if any, of a switching function that rises (up) or falls everywhere in the
+ * interval. */
 static void find_zero(struct zero_search *s, iv part, bool up)
 {
     const enum sign left = up ? NEGATIVE : POSITIVE, right = up ? POSITIVE : NEGATIVE;
@@ -108,11 +109,12 @@ static void find_zero(struct zero_search *s, iv part, bool up)
         s->before = right;
 }
 
-/* Whether the guard's values in the interval are within the round-off of its middle. */
+/* Whether the switching function's values in the interval are within the round-off of its middle.
+ */
 static bool is_noise(const struct zero_search *s, iv part, iv value)
 {
     iv at;
-    return br_function_bound(s->guard, with(s->box, s->along, point(middle(part))), &at) &&
+    return br_function_bound(s->switching, with(s->box, s->along, point(middle(part))), &at) &&
            at.low <= 0 && at.high >= 0 && width(at) > 0 && width(value) <= 8 * width(at);
 }
 
@@ -126,11 +128,11 @@ static void locate(struct zero_search *s, iv part)
         refuse(s, part, "where it changes its form cannot be determined");
         return;
     }
-    const bool bounded = br_function_bound(s->guard, box, &value);
+    const bool bounded = br_function_bound(s->switching, box, &value);
     const enum sign sign = sign_of(bounded, value);
     if (sign != UNDECIDED) {
         settle(s, part, sign);
-    } else if (br_function_taylor(s->guard, s->along, box, 1, slope) &&
+    } else if (br_function_taylor(s->switching, s->along, box, 1, slope) &&
                (slope[1].low > 0 || slope[1].high < 0)) {
         find_zero(s, part, slope[1].low > 0);
     } else if (!is_divisible(part) || (bounded && is_noise(s, part, value))) {
@@ -161,24 +163,28 @@ static void merge(struct br_breaks *b)
     b->count = kept;
 }
 
-static enum br_status search(const struct br_function *guard, enum br_variable along,
+static enum br_status search(const struct br_function *switching, enum br_variable along,
                              struct br_box box, struct br_breaks *out, struct br_error *err)
 {
-    struct zero_search s = {
-        .guard = guard, .along = along, .box = box, .out = out, .err = err, .before = UNDECIDED};
+    struct zero_search s = {.switching = switching,
+                            .along = along,
+                            .box = box,
+                            .out = out,
+                            .err = err,
+                            .before = UNDECIDED};
     const iv *all = side(&box, along);
     if (!out->at)
         out->at = br_allocate(2 * MOST_BREAKS, sizeof *out->at);
     if (!out->at)
         return br_no_memory(err, "the breaks of a function");
-    /* A guard that is zero from the start on has no break there. */
+    /* A switching function that is zero from the start on has no break there. */
     s.before = sign_on(&s, point(all->low));
     locate(&s, *all);
     merge(out);
     return s.status;
 }
 
-/* A guard of both variables that may be zero in the box, where neither is a point. */
+/* A switching function of both variables that may be zero in the box, where neither is a point. */
 static bool is_moving(const struct br_function *g, struct br_box box)
 {
     iv value;
@@ -191,7 +197,7 @@ enum br_status br_breaks_add(const struct br_function *f, enum br_variable along
 {
     const struct br_function *g;
     enum br_status status = BR_OK;
-    for (size_t i = 0; (g = br_function_guard(f, i)) && !status; i++)
+    for (size_t i = 0; (g = br_function_switching(f, i)) && !status; i++)
         if (is_moving(g, box))
             out->moving = true;
         else if (along == BR_X ? g->uses_x : g->uses_t)
@@ -207,7 +213,7 @@ enum br_status br_front_times(const struct br_function *f, struct br_box box, st
 {
     const struct br_function *g;
     enum br_status status = BR_OK;
-    for (size_t i = 0; (g = br_function_guard(f, i)) && !status; i++) {
+    for (size_t i = 0; (g = br_function_switching(f, i)) && !status; i++) {
         if (!is_moving(g, box))
             continue;
         status = search(g, BR_T, with(box, BR_X, point(box.x.low)), out, err);

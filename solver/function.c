@@ -77,9 +77,9 @@ bool br_function_taylor(const struct br_function *f, enum br_variable along, str
     return smooth;
 }
 
-const struct br_function *br_function_guard(const struct br_function *f, size_t i)
+const struct br_function *br_function_switching(const struct br_function *f, size_t i)
 {
-    return f->ops && f->ops->guard ? f->ops->guard(f->self, i) : NULL;
+    return f->ops && f->ops->switching ? f->ops->switching(f->self, i) : NULL;
 }
 
 enum br_status br_function_derive(const struct br_function *f, const struct br_derivation *what,

@@ -41,9 +41,9 @@ struct br_derivation {
 struct br_function;
 
 /* How a function is evaluated, copied, released, and enclosed. An instance may be used by one
- * thread at a time; clone it for another. Without bound, taylor or guard (NULL) nothing can be
- * proved of the function, and callers that need a proof refuse it. Without derive it has no
- * derivatives. */
+ * thread at a time; clone it for another. Without bound, taylor or switching function (NULL)
+ * nothing can be proved of the function, and callers that need a proof refuse it. Without derive it
+ * has no derivatives. */
 struct br_function_ops {
     /* x: in, m, count values; t: s; value: out, count values */
     void (*evaluate)(void *self, size_t count, const double *x, double t, double *value);
@@ -56,15 +56,15 @@ struct br_function_ops {
 
     /* Encloses the Taylor coefficients f^(i) / i! along one variable, i = 0 to order, at all points
      * of the box. False: the function may be infinite, no number, or not smooth somewhere in the
-     * box (at a guard, or as sqrt is at zero). */
+     * box (at a switching function, or as sqrt is at zero). */
     bool (*taylor)(const void *self, enum br_variable along, struct br_box box, size_t order,
                    struct br_interval *coefficient);
 
     /* Guard i, borrowed, or NULL from the last one on: a function whose change of sign, and nothing
-     * else, makes this function or a derivative of it jump. A guard is the argument of step, abs
-     * and sign, or the difference of the two arguments of min, max and a comparison. A guard has
-     * enclosures only. */
-    const struct br_function *(*guard)(const void *self, size_t i);
+     * else, makes this function or a derivative of it jump. A switching function is the argument of
+     * step, abs and sign, or the difference of the two arguments of min, max and a comparison. A
+     * switching function has enclosures only. */
+    const struct br_function *(*switching)(const void *self, size_t i);
 
     /* A sum of derivatives as a function (out), by the rules of differentiation; at a jump or a
      * kink it has the value beside it. Fails with BR_NO_MEMORY or BR_BAD_INPUT (it is too long). */
@@ -94,11 +94,12 @@ void br_function_free(struct br_function *f);
 /* Whether f is the constant zero. */
 bool br_function_is_zero(const struct br_function *f);
 
-/* Enclosures and guards, as in br_function_ops; value and coefficient (order + 1) are out. */
+/* Enclosures and switching functions, as in br_function_ops; value and coefficient (order + 1) are
+ * out. */
 bool br_function_bound(const struct br_function *f, struct br_box box, struct br_interval *value);
 bool br_function_taylor(const struct br_function *f, enum br_variable along, struct br_box box,
                         size_t order, struct br_interval *coefficient);
-const struct br_function *br_function_guard(const struct br_function *f, size_t i);
+const struct br_function *br_function_switching(const struct br_function *f, size_t i);
 
 /* A sum of derivatives of f; *out is zero where it fails (BR_NO_MEMORY; BR_BAD_INPUT: f has none).
  */

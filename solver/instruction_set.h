@@ -30,10 +30,10 @@ size_t br_instruction_set_find(const char *name);
 /* ---- loops that the compiler makes copies of ---- */
 
 /* How the sweeps are compiled. A sweep is one chain of dependent multiply-adds, and their latency
- * limits its speed. So only the files of the sweeps and study/grid/ladder_loops.c are compiled with
- * contraction (-ffp-contract=fast; all others with =off), and on x86-64 the program picks at run
- * time a copy that uses fused multiply-add where the processor has it (-DBR_NO_FMA: never; nor with
- * BR_LONG, since long double has none). */
+ * limits its speed. So only the files of the sweeps and study/grid/nested_meshes_loops.c are
+ * compiled with contraction (-ffp-contract=fast; all others with =off), and on x86-64 the program
+ * picks at run time a copy that uses fused multiply-add where the processor has it (-DBR_NO_FMA:
+ * never; nor with BR_LONG, since long double has none). */
 
 #if defined __has_feature
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \

@@ -94,11 +94,11 @@ static bool grows(const struct proof *p, struct br_box box, enum br_variable v, 
            !(magnitude(here) <= 1000 * magnitude(there) + 1e-300 || away == at);
 }
 
-/* Whether a guard such as x == 0 is zero on a face: there a limit may be filled in. */
+/* Whether a switching function such as x == 0 is zero on a face: there a limit may be filled in. */
 static bool is_guarded(const struct proof *p, const struct br_box face[2])
 {
     const struct br_function *g;
-    for (size_t i = 0; (g = br_function_guard(p->f, i)); i++)
+    for (size_t i = 0; (g = br_function_switching(p->f, i)); i++)
         for (int k = 0; k < 2; k++) {
             iv value;
             if (br_function_bound(g, face[k], &value) && value.low == 0 && value.high == 0)
@@ -108,8 +108,8 @@ static bool is_guarded(const struct proof *p, const struct br_box face[2])
 }
 
 /* Both faces have bounds, but f has none between them, although no double lies there: a pole if f
- * grows towards it; else, at a guard, a limit that is filled in. */
-static enum br_finite judge_gap(const struct proof *p, struct br_box box, enum br_variable v,
+ * grows towards it; else, at a switching function, a limit that is filled in. */
+static enum br_finite check_gap(const struct proof *p, struct br_box box, enum br_variable v,
                                 const struct br_box face[2])
 {
     const iv a = *side(&box, v);
@@ -148,7 +148,7 @@ static enum br_finite divide(struct proof *p, struct br_box box)
             p->left[p->count++] = half[k];
             both = false;
         }
-    return both && !is_divisible(*side(&box, v)) ? judge_gap(p, box, v, half) : BR_FINITE;
+    return both && !is_divisible(*side(&box, v)) ? check_gap(p, box, v, half) : BR_FINITE;
 }
 
 enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, iv *value,
@@ -171,43 +171,43 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
 }
 
 /* A box and the enclosure of f on it. */
-struct piece {
+struct subbox {
     struct br_box box;
     iv value;
 };
 
-/* The piece with the highest upper bound, or, for sign -1, the lowest lower bound. */
-static size_t find_worst(const struct piece *piece, size_t count, double sign)
+/* The subbox with the highest upper bound, or, for sign -1, the lowest lower bound. */
+static size_t find_worst(const struct subbox *subbox, size_t count, double sign)
 {
     size_t worst = 0;
     for (size_t i = 1; i < count; i++)
-        if (sign > 0 ? piece[i].value.high > piece[worst].value.high
-                     : piece[i].value.low < piece[worst].value.low)
+        if (sign > 0 ? subbox[i].value.high > subbox[worst].value.high
+                     : subbox[i].value.low < subbox[worst].value.low)
             worst = i;
     return worst;
 }
 
 /* The enclosure is the whole line where f has no bound. */
-static struct piece piece_of(const struct br_function *f, struct br_box box)
+static struct subbox subbox_of(const struct br_function *f, struct br_box box)
 {
-    struct piece p = {.box = box};
+    struct subbox p = {.box = box};
     if (!br_function_bound(f, box, &p.value))
         p.value = (iv){-INFINITY, INFINITY};
     return p;
 }
 
-/* Halves piece i: one half becomes piece i, the other one piece `next`. */
-static bool halve(const struct br_function *f, struct br_box whole, struct piece *piece, size_t i,
+/* Halves subbox i: one half becomes subbox i, the other one subbox `next`. */
+static bool halve(const struct br_function *f, struct br_box whole, struct subbox *subbox, size_t i,
                   size_t next)
 {
     struct br_box half[2];
-    const struct br_box box = piece[i].box;
+    const struct br_box box = subbox[i].box;
     const bool along_x = width(box.x) * width(whole.t) >= width(box.t) * width(whole.x);
     if (!is_divisible(along_x ? box.x : box.t))
         return false;
     split(box, along_x ? BR_X : BR_T, half);
-    piece[i] = piece_of(f, half[0]);
-    piece[next] = piece_of(f, half[1]);
+    subbox[i] = subbox_of(f, half[0]);
+    subbox[next] = subbox_of(f, half[1]);
     return true;
 }
 
@@ -215,22 +215,22 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, iv *value
                        struct br_box *peak)
 {
     enum { MOST = 500 };
-    struct piece piece[MOST] = {piece_of(f, used_box(f, box))};
-    const struct br_box whole = piece[0].box;
-    iv seen = {INFINITY, -INFINITY};
+    struct subbox subbox[MOST] = {subbox_of(f, used_box(f, box))};
+    const struct br_box whole = subbox[0].box;
+    iv sampled = {INFINITY, -INFINITY};
     for (size_t count = 1;; count++) {
-        const size_t top = find_worst(piece, count, 1), bottom = find_worst(piece, count, -1);
-        *value = (iv){piece[bottom].value.low, piece[top].value.high};
+        const size_t top = find_worst(subbox, count, 1), bottom = find_worst(subbox, count, -1);
+        *value = (iv){subbox[bottom].value.low, subbox[top].value.high};
         for (int k = 0; k < 2; k++) {
-            const struct br_box *at = &piece[k ? top : bottom].box;
+            const struct br_box *at = &subbox[k ? top : bottom].box;
             const double x = middle(at->x), found = br_function_at(f, x, middle(at->t));
-            if (!(fabs(found) <= magnitude(seen)) || count == 1)
+            if (!(fabs(found) <= magnitude(sampled)) || count == 1)
                 *peak = (struct br_box){point(x), point(middle(at->t))};
-            seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
+            sampled = (iv){fmin(sampled.low, found), fmax(sampled.high, found)};
         }
-        const double above = value->high - seen.high, below = seen.low - value->low;
-        if (count == MOST || (above + below) * 20 <= width(seen) ||
-            !halve(f, whole, piece, above >= below ? top : bottom, count))
+        const double above = value->high - sampled.high, below = sampled.low - value->low;
+        if (count == MOST || (above + below) * 20 <= width(sampled) ||
+            !halve(f, whole, subbox, above >= below ? top : bottom, count))
             break;
     }
     struct br_box where; /* a filled-in limit has a bound in small boxes only */

@@ -35,22 +35,24 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
 struct br_breaks {
     struct br_interval *at; /* count; owned */
     size_t count;
-    bool moving; /* a guard of both variables changes sign along a curve; such breaks are not listed
+    bool moving; /* a switching function of both variables changes sign along a curve; such breaks
+                  * are not listed
                   */
 };
 void br_breaks_free(struct br_breaks *breaks);
 
-/* Adds all values of one variable in the box at which a guard of f changes sign or touches zero:
- * between them f is smooth, except for functions like sqrt at zero. Where the other variable is one
- * point, or for guards without it, none is missed. *breaks: in/out, zeroed at first; the breaks of
- * several functions may be added. The box's ends are no breaks. Fails with BR_BAD_INPUT where there
- * are too many (20,000) or cannot be separated, naming where, or BR_NO_MEMORY. */
+/* Adds all values of one variable in the box at which a switching function of f changes sign or
+ * touches zero: between them f is smooth, except for functions like sqrt at zero. Where the other
+ * variable is one point, or for switching functions without it, none is missed. *breaks: in/out,
+ * zeroed at first; the breaks of several functions may be added. The box's ends are no breaks.
+ * Fails with BR_BAD_INPUT where there are too many (20,000) or cannot be separated, naming where,
+ * or BR_NO_MEMORY. */
 enum br_status br_breaks_add(const struct br_function *f, enum br_variable along, struct br_box box,
                              struct br_breaks *breaks, struct br_error *err);
 
-/* Adds the times at which a guard that depends on x and t, such as x - c t, is zero at an end of
- * the box in x: there a front enters or leaves. Times at which a front turns back or begins inside
- * the box are not among them. Fails as br_breaks_add. */
+/* Adds the times at which a switching function that depends on x and t, such as x - c t, is zero at
+ * an end of the box in x: there a front enters or leaves. Times at which a front turns back or
+ * begins inside the box are not among them. Fails as br_breaks_add. */
 enum br_status br_front_times(const struct br_function *f, struct br_box box,
                               struct br_breaks *breaks, struct br_error *err);
 

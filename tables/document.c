@@ -397,12 +397,12 @@ void br_put_across(struct br_document *d)
     br_put_table(d, "", t->title, BR_FOR_PEOPLE | t->flags);
     for (size_t c = 0; c < t->columns && !d->failure.status; c++) {
         const struct br_column *of = &t->column[c];
-        if (c > 0 && br_document_is_seen(t, c))
+        if (c > 0 && br_document_is_shown(t, c))
             BR_PUT_ROW(d, br_text(br_format(d, "%s%s%s", of->heading, of->unit ? ", " : "",
                                             of->unit ? of->unit : "")));
         else if (c == 0)
             br_put_columns(d, &(struct br_column){.key = "", .heading = of->heading}, 1);
-        for (size_t r = 0; r < t->rows && (c == 0 || br_document_is_seen(t, c)); r++) {
+        for (size_t r = 0; r < t->rows && (c == 0 || br_document_is_shown(t, c)); r++) {
             const char *shown = br_document_shown(of, &t->row[r].cell[c], text);
             const struct br_column column = {.key = br_format(d, "%zu", r), .heading = shown};
             if (c == 0)

@@ -378,7 +378,7 @@ static inline const struct br_document_cell *br_document_cell_at(
 
 /* Whether people see a column: it is for them, has a value, and tells its rows apart if it has to.
  */
-static inline bool br_document_is_seen(const struct br_document_table *table, size_t column)
+static inline bool br_document_is_shown(const struct br_document_table *table, size_t column)
 {
     const unsigned flags = table->column[column].flags;
     const bool same = flags & BR_VARIES && !(flags & BR_UNLIKE) && table->rows > 1;

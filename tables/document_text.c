@@ -125,7 +125,7 @@ static struct layout lay_out(const struct br_markup_page *p, const struct br_doc
     const unsigned flags = t->column[c].flags;
     struct layout l = {
         .column = &t->column[c],
-        .shown = br_document_is_seen(t, c) && !(p->terminal && flags & BR_FILES_ONLY),
+        .shown = br_document_is_shown(t, c) && !(p->terminal && flags & BR_FILES_ONLY),
         .left = flags & BR_TEXTUAL,
     };
     const char *heading = heading_of(p, l.column);

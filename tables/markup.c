@@ -130,7 +130,7 @@ void br_markup_columns(const struct br_markup_page *p, const struct br_document_
                        const char *const word[3])
 {
     for (size_t c = 0; c < t->columns; c++)
-        if (br_document_is_seen(t, c))
+        if (br_document_is_shown(t, c))
             fputs(word[alignment_of(t, c)], p->out);
 }
 
@@ -155,7 +155,7 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
     const struct br_around *cell = row ? &m->cell : &m->head;
     const char *between = row ? m->row.before : "";
     for (size_t c = 0; c < t->columns; c++) {
-        if (!br_document_is_seen(t, c))
+        if (!br_document_is_shown(t, c))
             continue;
         say(p, between);
         if (cell->before)

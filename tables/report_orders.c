@@ -136,7 +136,7 @@ static void say_orders(struct br_document *d, const struct br_orders *o,
 static void say_next(struct br_document *d, const struct br_orders *o,
                      const struct br_quantity_orders *of, bool *first)
 {
-    const struct br_orders_forecast f = br_orders_foresee(o, of);
+    const struct br_orders_forecast f = br_orders_forecast_of(o, of);
     double given;
     const double next = f.line ? br_orders_next(o, &f, &given) : (double)NAN;
     if (!f.line)
@@ -386,7 +386,7 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
                .format = "%.3g");
         BR_PUT(d, br_number(row->bytes / 1e6), .key = "peak_memory", .heading = "peak memory",
                .unit = "MB", .format = "%.3g");
-        BR_PUT(d, br_truth(row->kept), .key = "kept", .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_truth(row->cached), .key = "cached", .flags = BR_FILES_ONLY);
     }
 }
 
@@ -485,7 +485,7 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
     };
     BR_TABLE(d, "needed", "What smaller errors need, if the order stays", 0, columns);
     for (size_t i = 0; i < o->count; i++) {
-        const struct br_orders_forecast f = br_orders_foresee(o, &o->of[i]);
+        const struct br_orders_forecast f = br_orders_forecast_of(o, &o->of[i]);
         double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
         for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
             const struct br_resolution_column *column = o->numbers->column[f.line->axis];
@@ -520,7 +520,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
 {
     br_document_begin(d, "orders", "beamrate orders", 2, caption);
 
-    size_t kept = 0;
+    size_t cached = 0;
     for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
         const struct br_quantity_orders *of = &o->of[i];
         const struct br_orders_line *line =
@@ -552,10 +552,10 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         br_put_answer(d,
                       "h and k are refined together: the order in h is that of the whole error.");
     for (size_t i = 0; i < o->numbers->rows; i++)
-        kept += o->numbers->row[i].kept;
-    if (kept) /* their numbers are those of the program at that time */
-        br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.", kept,
-                      o->numbers->rows);
+        cached += o->numbers->row[i].cached;
+    if (cached) /* their numbers are those of the program at that time */
+        br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.",
+                      cached, o->numbers->rows);
 
     for (size_t i = 0; i < o->count; i += MOST_BESIDE)
         put_rows(d, o, i, i + MOST_BESIDE < o->count ? i + MOST_BESIDE : o->count,

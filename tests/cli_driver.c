@@ -135,8 +135,8 @@ bool cli_is_there(const char *name)
     return stat(path, &info) == 0;
 }
 
-/* Files in a folder below the working one: hidden ones too, but not the list of sets, nor the folder
- * of kept work. */
+/* Files in a folder below the working one: hidden ones too, but not the list of sets, nor the
+ * folder of cached work. */
 size_t cli_count_files(const char *name)
 {
     char path[512];
@@ -147,7 +147,7 @@ size_t cli_count_files(const char *name)
     size_t count = 0;
     for (struct dirent *e; (e = readdir(d));)
         count += strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0 &&
-                 strcmp(e->d_name, ".kept") != 0 && strcmp(e->d_name, ".beamrate-set") != 0;
+                 strcmp(e->d_name, ".cache") != 0 && strcmp(e->d_name, ".beamrate-set") != 0;
     closedir(d);
     return count;
 }

@@ -37,7 +37,7 @@ void cli_expect(const char *line, const struct cli_circumstances *c, int exit_co
 const char *cli_folder(void);
 void cli_path(const char *name, char path[512]);
 bool cli_is_there(const char *name);
-size_t cli_count_files(const char *name); /* hidden ones too; no list of sets, no .kept */
+size_t cli_count_files(const char *name); /* hidden ones too; no list of sets, no .cache */
 void cli_write_file(const char *name, const char *text);
 const char *cli_read(const char *name); /* its first 256 KiB, until the next call */
 

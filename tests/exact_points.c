@@ -7,7 +7,7 @@
 #include "reference/exact/inside.h"
 
 /* The element that contains x, m; where two meet the left one. */
-static size_t element_of(const struct br_exact_pieces *p, double x)
+static size_t element_of(const struct br_spectral_elements *p, double x)
 {
     size_t e = 0;
     while (e + 1 < p->count && p->end[e + 1] < x)
@@ -31,7 +31,7 @@ enum br_status exact_points(const struct br_exact *exact, const struct br_exact_
                             double *value, struct br_error *err)
 {
     const struct br_oscillators *field = exact->solution->field[quantity->field];
-    const struct br_exact_pieces *pieces = &field->modes.pieces;
+    const struct br_spectral_elements *spectral = &field->modes.spectral;
     const size_t room = br_modes_length(&field->modes, 0), degree = field->modes.degree;
     const bool derived = quantity->order > degree; /* the series is derived once more */
     const size_t order = derived ? degree : quantity->order, extra = degree - order;
@@ -40,10 +40,10 @@ enum br_status exact_points(const struct br_exact *exact, const struct br_exact_
         return br_no_memory(err, "a series");
     br_modes_expand(&field->modes, order, state->mode[quantity->field][quantity->velocity], c);
     for (size_t i = 0; i < count; i++) {
-        const size_t e = element_of(pieces, x[i]), terms = pieces->terms[e] + extra;
-        const double h = br_pieces_width(pieces, e), xi = (x[i] - pieces->end[e]) / h;
-        value[i] = sum_of(terms, &c[br_pieces_at(pieces, e, extra)], xi / field->length, derived,
-                          c + room, c + 2 * room) /
+        const size_t e = element_of(spectral, x[i]), terms = spectral->terms[e] + extra;
+        const double h = br_spectral_width(spectral, e), xi = (x[i] - spectral->end[e]) / h;
+        value[i] = sum_of(terms, &c[br_spectral_at(spectral, e, extra)], xi / field->length,
+                          derived, c + room, c + 2 * room) /
                    sqrt(h) / (derived ? h : 1) * pow(field->length, -(double)quantity->order);
     }
     free(c);

@@ -162,8 +162,8 @@ def forms():
             path = os.path.join(folder, name)
             stem, extension = os.path.splitext(path)
             assert not name.startswith("MARK"), "something was run"
-            if extension not in FORMS or path == "./t.csv" or ".kept" in path \
-                    or "orders-kept" in path:
+            if extension not in FORMS or path == "./t.csv" or ".cache" in path \
+                    or "orders-cache" in path:
                 continue
             with open(path, encoding="utf-8", newline="") as file:
                 text = file.read()

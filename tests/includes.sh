@@ -10,7 +10,7 @@
 set -u
 
 # A folder: what its files may include, and with a - what of that they may not. Of the file and the
-# folders above it the deepest one that stands here counts. The exact solution judges the solver, so
+# folders above it the deepest one that stands here counts. The exact solution checks the solver, so
 # it takes only the scene and the form of a solution from it (docs/architecture.md).
 rules='
 base: base/
@@ -37,9 +37,9 @@ grid: scene
 fit: grid
 ranks: grid
 run:
-foresee: grid run
+estimate: grid run
 verify: fit grid scene
-trade: fit foresee grid scene
+trade: estimate fit grid scene
 extremes: run scene
 paper: grid run scene
 '

@@ -50,7 +50,7 @@ static struct br_study make_study(const struct br_scene *scene, struct br_cell *
         .scene = scene,
         .norm = br_norms[0],
         .method = make_method(),
-        .judge = &br_judge_fine,
+        .reference_kind = &br_reference_fine,
         .reference_method = make_method(),
         .reference = {640, 3200},
         .n_count = BR_MADE_N,
@@ -58,7 +58,7 @@ static struct br_study make_study(const struct br_scene *scene, struct br_cell *
         .n = meshes,
         .steps = steps,
         .cell = cell,
-        .judged_by = {.own_error = {{NAN}, {NAN}}, .round_off = 1e-13, .seconds = 2.5},
+        .reference_report = {.own_error = {{NAN}, {NAN}}, .round_off = 1e-13, .seconds = 2.5},
         .reference_scale = 0.5,
         .reference_error = {1.5e-3, 1e-3, 5e-4},
     };
@@ -121,12 +121,12 @@ void br_made_report(struct br_made_report *m, bool with_exact)
     m->study = make_study(&m->scene, m->cell[0]);
     m->exact = make_study(&m->scene, m->cell[1]);
     struct br_study *by_exact = with_exact ? &m->exact : &m->study;
-    by_exact->judge = &br_judge_exact;
+    by_exact->reference_kind = &br_reference_exact;
     by_exact->reference = (struct br_resolution){0, 3200};
-    by_exact->judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = 1e-14;
-    by_exact->judged_by.own_error[BR_BENDING][BR_DISPLACEMENT] = 2e-14;
+    by_exact->reference_report.own_error[BR_AXIAL][BR_DISPLACEMENT] = 1e-14;
+    by_exact->reference_report.own_error[BR_BENDING][BR_DISPLACEMENT] = 2e-14;
     if (with_exact)
-        m->study.auditor = &br_judge_exact;
+        m->study.reference_check = &br_reference_exact;
     m->report = (struct br_report){.name = "made",
                                    .caption = BR_MADE_CAPTION,
                                    .study = &m->study,

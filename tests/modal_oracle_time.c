@@ -217,13 +217,13 @@ static void moments(const struct oracle_equation *e, real length, real moment[NO
         slow_moments(e, length, moment);
         return;
     }
-    const real slow = e->stiffness / e->mass / e->rate, apart = (e->rate - slow) * e->mass;
+    const real slow = e->stiffness / e->mass / e->rate, gap = (e->rate - slow) * e->mass;
     real late[NODES], early[NODES];
     decay_moments(slow, length, late);
     decay_moments(e->rate, length, early);
     for (int k = 0; k < NODES; k++) {
-        moment[k][0] = (late[k] - early[k]) / apart;
-        moment[k][1] = (e->rate * early[k] - slow * late[k]) / apart;
+        moment[k][0] = (late[k] - early[k]) / gap;
+        moment[k][1] = (e->rate * early[k] - slow * late[k]) / gap;
     }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The operations of expressions by the C library's long double: what evaluation, enclosures and
- * derivatives are judged by. */
+ * derivatives are checked by. */
 #ifndef BR_TESTS_OPERATION_ORACLE_H
 #define BR_TESTS_OPERATION_ORACLE_H
 

@@ -47,7 +47,7 @@ FNR == 1 { text = "" }
 }' >"$list"
 [ "$(wc -l <"$list")" -ge 500 ] || { echo "found too few sentences" && exit 1; }
 
-# Private words and riddles. Words of the code ("judge") may stand in pages for its readers.
+# Private words and riddles.
 unclear='heeds?\b|[Jj]udged by|[Nn]obody asks|lost in what|waits for an|point against|cells alone|\bis told\b|do not see\b|as in theory\b|All .* cells count|Own error is about|[Oo]ut come|the dearest|the whole is .* of the sum'
 status=0
 grep -nE "$unclear" README.md docs/*.md && status=1

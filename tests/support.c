@@ -93,14 +93,15 @@ struct br_test_end br_test_run(const struct br_scene *scene, size_t n, size_t st
     return end;
 }
 
-struct br_study br_test_study(const struct br_scene *scene, const struct br_judge *judge,
-                              size_t n_count, const size_t *n, size_t k_count, const size_t *steps)
+struct br_study br_test_study(const struct br_scene *scene,
+                              const struct br_reference *reference_kind, size_t n_count,
+                              const size_t *n, size_t k_count, const size_t *steps)
 {
     return (struct br_study){
         .scene = scene,
         .norm = br_norms[0],
         .method = br_method_default(),
-        .judge = judge,
+        .reference_kind = reference_kind,
         .reference_method = br_method_default(),
         .n_count = n_count,
         .k_count = k_count,

@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "solver/march.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "study/grid/study.h"
 #include "tests/checks.h"
 
@@ -35,10 +35,11 @@ void br_test_advance(struct br_march *march, size_t until);
 const struct br_warning *br_test_warning(const struct br_warnings *warnings,
                                          enum br_warning_kind kind);
 
-/* A study in the L2 norm, by the default method and, where the judge is a fine run, with a
+/* A study in the L2 norm, by the default method and, where the reference is a fine run, with a
  * reference by it; the lists are borrowed. */
-struct br_study br_test_study(const struct br_scene *scene, const struct br_judge *judge,
-                              size_t n_count, const size_t *n, size_t k_count, const size_t *steps);
+struct br_study br_test_study(const struct br_scene *scene,
+                              const struct br_reference *reference_kind, size_t n_count,
+                              const size_t *n, size_t k_count, const size_t *steps);
 
 /* s[0] becomes a chain of studies in all norms of the registry (in/out). */
 enum { BR_TEST_NORMS = 3 };

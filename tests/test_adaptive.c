@@ -156,7 +156,7 @@ TEST(test_small_load)
 
 /* ---- what a step begins with ---- */
 
-struct seen {
+struct record {
     const struct br_march *march;
     struct br_tip accepted;
     size_t trials, steps;
@@ -164,22 +164,22 @@ struct seen {
 
 static void see_stage(void *self, const struct br_march_stage *told)
 {
-    struct seen *seen = self;
-    const struct br_tip *tip = br_march_tip(seen->march);
+    struct record *record = self;
+    const struct br_tip *tip = br_march_tip(record->march);
     if (told->kind != BR_AXIAL || told->index != 0)
         return;
-    seen->trials++;
-    CLOSE(tip->velocity[BR_BENDING], seen->accepted.velocity[BR_BENDING], 0);
-    CLOSE(tip->friction_force, seen->accepted.friction_force, 0);
-    CLOSE(tip->friction_bound, seen->accepted.friction_bound, 0);
+    record->trials++;
+    CLOSE(tip->velocity[BR_BENDING], record->accepted.velocity[BR_BENDING], 0);
+    CLOSE(tip->friction_force, record->accepted.friction_force, 0);
+    CLOSE(tip->friction_bound, record->accepted.friction_bound, 0);
 }
 
 static void see_step(void *self, enum br_field_kind kind, bool switched)
 {
-    struct seen *seen = self;
+    struct record *record = self;
     (void)switched;
-    seen->accepted = *br_march_tip(seen->march);
-    seen->steps += kind == BR_BENDING;
+    record->accepted = *br_march_tip(record->march);
+    record->steps += kind == BR_BENDING;
 }
 
 /* When the first stage of the rod has ended, the beam's tip is still what the last accepted step
@@ -191,11 +191,11 @@ TEST(test_taken_back)
     method.scheme = br_time_scheme_find("adaptive");
     method.tolerance = 1e-4;
     struct br_march *march = br_test_march(&scene, 4, 10, &method);
-    struct seen seen = {.march = march, .accepted = *br_march_tip(march)};
-    assert_true(br_march_watch(march, &(struct br_march_watcher){&seen, see_stage, see_step}));
+    struct record record = {.march = march, .accepted = *br_march_tip(march)};
+    assert_true(br_march_watch(march, &(struct br_march_watcher){&record, see_stage, see_step}));
     br_test_advance(march, 10);
     assert_true(br_march_counts(march).rejected > 0);
-    assert_true(seen.trials > seen.steps && seen.steps == br_march_counts(march).steps);
+    assert_true(record.trials > record.steps && record.steps == br_march_counts(march).steps);
     br_march_free(march);
     br_scene_clear(&scene);
 }

@@ -82,7 +82,7 @@ static enum br_status study(const void *data, struct br_error *err)
 {
     const struct march_data *d = data;
     static const size_t n[] = {2, 4}, steps[] = {5, 10};
-    struct br_study s = br_test_study(&d->scene, &br_judge_fine, 2, n, 2, steps);
+    struct br_study s = br_test_study(&d->scene, &br_reference_fine, 2, n, 2, steps);
     s.method = d->method;
     s.reference_method = d->method;
     s.reference = (struct br_resolution){8, 10};

@@ -15,10 +15,11 @@
 static const size_t grid_n[] = {10, 20, 30, 40}, grid_steps[] = {20, 50, 100, 200};
 
 /* A study with cells, as br_study_run prepares it. */
-static struct br_study prepared(const struct br_scene *scene, const struct br_judge *judge,
+static struct br_study prepared(const struct br_scene *scene,
+                                const struct br_reference *reference_kind,
                                 struct br_resolution reference)
 {
-    struct br_study s = br_test_study(scene, judge, 4, grid_n, 4, grid_steps);
+    struct br_study s = br_test_study(scene, reference_kind, 4, grid_n, 4, grid_steps);
     s.reference = reference;
     s.cell = br_allocate(16, sizeof *s.cell);
     assert_non_null(s.cell);
@@ -38,7 +39,7 @@ static void expect_same(const struct br_study *a, const struct br_study *b)
     assert_memory_equal(a->reference_tip, b->reference_tip, sizeof a->reference_tip);
     assert_memory_equal(a->reference_error, b->reference_error, sizeof a->reference_error);
     assert_string_equal(a->events ? a->events : "", b->events ? b->events : "");
-    assert_true(a->auditor == b->auditor);
+    assert_true(a->reference_check == b->reference_check);
     for (size_t i = 0; i < 16; i++) {
         const struct br_cell *c = &a->cell[i], *d = &b->cell[i];
         assert_int_equal(c->at.steps, d->at.steps);
@@ -50,7 +51,8 @@ static void expect_same(const struct br_study *a, const struct br_study *b)
 
 /* All batches in turn, the last one first, as ranks might end; then what is cut off is no result.
  */
-static void march_apart(struct br_study *studies, size_t count, const struct br_batches *batches)
+static void march_one_by_one(struct br_study *studies, size_t count,
+                             const struct br_batches *batches)
 {
     struct br_error err = {0};
     char *bytes = NULL;
@@ -79,20 +81,20 @@ TEST(test_same_bits)
         struct br_study *const sets[] = {whole, parts};
         for (int i = 0; i < 2; i++) {
             struct br_study *s = sets[i];
-            s[0] = prepared(&scene, &br_judge_exact, of_levels);
-            s[1] = prepared(&scene, &br_judge_fine, (struct br_resolution){120, 200});
-            s[1].auditor = &br_judge_exact;
-            s[2] = prepared(&bad, &br_judge_exact, of_levels);
+            s[0] = prepared(&scene, &br_reference_exact, of_levels);
+            s[1] = prepared(&scene, &br_reference_fine, (struct br_resolution){120, 200});
+            s[1].reference_check = &br_reference_exact;
+            s[2] = prepared(&bad, &br_reference_exact, of_levels);
             s[2].method.friction = br_friction_rule_find("regularised");
-            s[3] = prepared(&scene, &br_judge_exact, of_levels);
+            s[3] = prepared(&scene, &br_reference_exact, of_levels);
             s[3].norm = &br_norm_energy;
             s[0].next_norm = &s[3]; /* a chain */
         }
-        MUST(br_lockstep(whole, FIRST, 1, NULL, &err));
+        MUST(br_march_studies(whole, FIRST, 1, NULL, &err));
         struct br_batches batches;
         MUST(br_batches_create(&batches, parts, FIRST, ranks, 1, &err));
         assert_true(batches.count == FIRST || ranks > 1);
-        march_apart(parts, FIRST, &batches);
+        march_one_by_one(parts, FIRST, &batches);
         assert_int_equal(whole[2].failure.status, BR_BAD_INPUT);
         for (int i = 0; i < STUDIES; i++) {
             expect_same(&whole[i], &parts[i]);
@@ -126,8 +128,9 @@ TEST(test_cutting)
     struct br_scene scene = br_test_bundled("example1");
     struct br_error err = {0};
     const size_t n[] = {100, 200, 400, 800}, steps[] = {5000, 6000, 8000, 10000};
-    struct br_study s[] = {prepared(&scene, &br_judge_exact, (struct br_resolution){0, 120000}),
-                           prepared(&scene, &br_judge_fine, (struct br_resolution){24000, 120000})};
+    struct br_study s[] = {
+        prepared(&scene, &br_reference_exact, (struct br_resolution){0, 120000}),
+        prepared(&scene, &br_reference_fine, (struct br_resolution){24000, 120000})};
     for (int i = 0; i < 2; i++) {
         s[i].n = n;
         s[i].steps = steps;
@@ -165,7 +168,7 @@ TEST(test_cutting)
 TEST(test_slices)
 {
     struct br_scene scene = br_test_bundled("example1");
-    struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
+    struct br_study s = prepared(&scene, &br_reference_exact, of_levels);
     double all = 0;
     for (size_t i = 0; i < 16; i++)
         all += br_cell_cost(&s, i);
@@ -191,7 +194,7 @@ TEST(test_slices)
 TEST(test_fingerprint)
 {
     struct br_scene scene = br_test_bundled("example4"), other = br_test_bundled("example4");
-    struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
+    struct br_study s = prepared(&scene, &br_reference_exact, of_levels);
     const unsigned long long print = br_studies_fingerprint(&s, 1);
     for (int change = 0; change < 5; change++) {
         struct br_study t = s;

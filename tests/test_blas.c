@@ -62,7 +62,7 @@ TEST(test_one_thread)
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_study s =
-        br_test_study(&scene, &br_judge_exact, 2, (size_t[]){4, 8}, 2, (size_t[]){20, 50});
+        br_test_study(&scene, &br_reference_exact, 2, (size_t[]){4, 8}, 2, (size_t[]){20, 50});
     s.method = br_test_method("umfpack", NULL, NULL);
     MUST(br_study_run(&s, 1, 2, NULL, &err));
     br_study_clear(&s);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference under loads that nobody sees by sampling: short blows, narrow patches, jumps,
  * moving fronts and pulses, at random places, in random lengths, durations, masses and stiffnesses.
- * An oracle that knows where its loads are judges the tip: it shares nothing with the reference, so
+ * An oracle that knows where its loads are checks the tip: it shares nothing with the reference, so
  * that both are right where they agree. An answer is right within what it
  * states, or it is refused. */
 #include <math.h>
@@ -53,7 +53,7 @@ static void find_truth(const struct hard_load *c, struct truth *truth)
         truth->round_off[v] += 1e-13L * largest(truth->tip, v);
 }
 
-/* ---- the judge ---- */
+/* ---- the reference ---- */
 
 enum outcome { RIGHT, REFUSED, UNSURE, WRONG, OUTCOMES }; /* unsure: the oracle is */
 
@@ -254,7 +254,7 @@ TEST(test_hard_loads)
     }
     for (size_t k = 0; k < HARD_KINDS; k++) {
         const size_t all = count[k][RIGHT] + count[k][REFUSED] + count[k][UNSURE] + count[k][WRONG];
-        print_message("# %-20s %4zu right %4zu refused %4zu not judged %4zu silently wrong\n",
+        print_message("# %-20s %4zu right %4zu refused %4zu not checked %4zu silently wrong\n",
                       hard_kinds[k].text, count[k][RIGHT], count[k][REFUSED], count[k][UNSURE],
                       count[k][WRONG]);
         wrong += count[k][WRONG];

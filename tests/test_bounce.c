@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "reference/energy/energy.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "support.h"

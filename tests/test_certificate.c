@@ -58,7 +58,7 @@ static struct br_certificate limits(void)
 }
 
 /* The step is refused, by the entry whose description contains `what`. */
-static void assert_seen(struct recorded *r, const char *what)
+static void assert_detected(struct recorded *r, const char *what)
 {
     struct br_error err = {0};
     const struct br_certificate certificate = certify(&r->step), most = limits();
@@ -73,11 +73,11 @@ static void assert_good(struct recorded *r)
 }
 
 /* value * (1 + 1e-6), and back. */
-static void assert_seen_in(struct recorded *r, double *value, const char *what)
+static void assert_detected_in(struct recorded *r, double *value, const char *what)
 {
     const double good = *value;
     *value = good * (1 + 1e-6);
-    assert_seen(r, what);
+    assert_detected(r, what);
     *value = good;
 }
 
@@ -86,26 +86,26 @@ TEST(test_planted_faults)
     static struct recorded r;
     record(&r, "lagged", "exact", 0, 1);
     assert_good(&r);
-    assert_seen_in(&r, &r.axial[4][N / 2], "(27)");
-    assert_seen_in(&r, &r.bending[4][N], "(28)");
-    assert_seen_in(&r, &r.scene.axial.stiffness, "(27)");
-    assert_seen_in(&r, &r.scene.axial.viscosity, "(27)");
-    assert_seen_in(&r, &r.scene.bending.stiffness, "(28)");
-    assert_seen_in(&r, &r.scene.bending.viscosity, "(28)");
-    assert_seen_in(&r, &r.axial[0][N], "");
-    assert_seen_in(&r, &r.axial[3][N / 2], "");
-    assert_seen_in(&r, &r.bending[0][N], "the update");
-    assert_seen_in(&r, &r.bending[3][N], "");
-    assert_seen_in(&r, &r.axial[1][N / 2], "(27)");
-    assert_seen_in(&r, &r.bending[1][N], "(28)");
-    assert_seen_in(&r, &r.step.tip.friction_force, "(28)");
-    assert_seen_in(&r, &r.step.tip.contact_force, "(27)");
-    assert_seen_in(&r, &r.step.tip.friction_bound, "(12)");
-    assert_seen_in(&r, &r.step.tip.displacement, "the update");
-    assert_seen_in(&r, &r.step.tip.velocity[BR_AXIAL], "the update");
-    assert_seen_in(&r, &r.step.tip.velocity[BR_BENDING], "the update");
-    assert_seen_in(&r, &r.scene.friction.coefficient, "(12)");
-    assert_seen_in(&r, &r.scene.contact.stiffness, "(10)");
+    assert_detected_in(&r, &r.axial[4][N / 2], "(27)");
+    assert_detected_in(&r, &r.bending[4][N], "(28)");
+    assert_detected_in(&r, &r.scene.axial.stiffness, "(27)");
+    assert_detected_in(&r, &r.scene.axial.viscosity, "(27)");
+    assert_detected_in(&r, &r.scene.bending.stiffness, "(28)");
+    assert_detected_in(&r, &r.scene.bending.viscosity, "(28)");
+    assert_detected_in(&r, &r.axial[0][N], "");
+    assert_detected_in(&r, &r.axial[3][N / 2], "");
+    assert_detected_in(&r, &r.bending[0][N], "the update");
+    assert_detected_in(&r, &r.bending[3][N], "");
+    assert_detected_in(&r, &r.axial[1][N / 2], "(27)");
+    assert_detected_in(&r, &r.bending[1][N], "(28)");
+    assert_detected_in(&r, &r.step.tip.friction_force, "(28)");
+    assert_detected_in(&r, &r.step.tip.contact_force, "(27)");
+    assert_detected_in(&r, &r.step.tip.friction_bound, "(12)");
+    assert_detected_in(&r, &r.step.tip.displacement, "the update");
+    assert_detected_in(&r, &r.step.tip.velocity[BR_AXIAL], "the update");
+    assert_detected_in(&r, &r.step.tip.velocity[BR_BENDING], "the update");
+    assert_detected_in(&r, &r.scene.friction.coefficient, "(12)");
+    assert_detected_in(&r, &r.scene.contact.stiffness, "(10)");
     assert_good(&r);
     br_scene_clear(&r.scene);
 }
@@ -119,12 +119,12 @@ TEST(test_planted_velocity)
         double *velocity = field ? r.bending[2] : r.axial[2];
         for (size_t i = 0; i < SIZE; i++)
             velocity[i] *= 1.001;
-        assert_seen(&r, field ? "(28)" : "(27)");
+        assert_detected(&r, field ? "(28)" : "(27)");
         for (size_t i = 0; i < SIZE; i++)
             velocity[i] /= 1.001;
     }
     r.scene.density *= 1.001;
-    assert_seen(&r, "(27)");
+    assert_detected(&r, "(27)");
     br_scene_clear(&r.scene);
 }
 
@@ -134,19 +134,19 @@ TEST(test_wrong_law)
     static struct recorded r;
     record(&r, "lagged", "exact", 0, 1);
     r.method.contact = br_contact_rule_find("implicit");
-    assert_seen(&r, "(10)");
+    assert_detected(&r, "(10)");
     const struct br_contact_rule unknown = {.name = "unknown"};
     r.method.contact = &unknown;
-    assert_seen(&r, "(10)");
+    assert_detected(&r, "(10)");
     br_scene_clear(&r.scene);
 
     record(&r, "implicit", "regularised", 0.1, 1); /* |v| < mu: it sticks, and creeps */
     assert_good(&r);
     r.method.contact = br_contact_rule_find("lagged");
-    assert_seen(&r, "(10)");
+    assert_detected(&r, "(10)");
     r.method.contact = br_contact_rule_find("implicit");
     r.method.friction = br_friction_rule_find("exact");
-    assert_seen(&r, "(12)");
+    assert_detected(&r, "(12)");
     br_scene_clear(&r.scene);
 }
 
@@ -250,9 +250,9 @@ TEST(test_wrong_bubble)
     static struct recorded r;
     record(&r, "lagged", "exact", 0, 2);
     assert_good(&r);
-    assert_seen_in(&r, &r.axial[4][N + 1], "(27)");
-    assert_seen_in(&r, &r.axial[1][N + 1], "(27)");
-    assert_seen_in(&r, &r.axial[3][N + 1], "");
+    assert_detected_in(&r, &r.axial[4][N + 1], "(27)");
+    assert_detected_in(&r, &r.axial[1][N + 1], "(27)");
+    assert_detected_in(&r, &r.axial[3][N + 1], "");
     br_scene_clear(&r.scene);
 }
 

@@ -80,7 +80,7 @@ TEST(test_sound)
     assert_int_equal(joint->points, 4);
     assert_int_equal(joint->point[3].against.n, 0);
     assert_true(m.check.seconds > 0);
-    double work = 0; /* of one field, without pairs and judges */
+    double work = 0; /* of one field, without pairs and references */
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
         for (size_t i = 0; i < m.verify.study[kind].count; i++)
             work += (double)m.verify.study[kind].n[i] * (double)m.verify.study[kind].steps[i];

@@ -9,7 +9,7 @@
 #include "solver/function.h"
 #include "solver/laws.h"
 #include "solver/scene.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "support.h"
 
 /* A rod that stays pressed against its obstacle. */

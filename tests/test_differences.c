@@ -27,7 +27,7 @@ static void check_cell(const struct br_study *differences, size_t i, size_t j,
     assert_true(cell->at.n == meshes[i] && cell->at.steps == steps[j]);
     assert_true(cell->against.n == finer.n && cell->against.steps == finer.steps);
     struct br_study s = *differences;
-    s.judge = &br_judge_fine;
+    s.reference_kind = &br_reference_fine;
     s.reference_method = s.method;
     s.reference = finer;
     s.n = &meshes[i], s.steps = &steps[j];

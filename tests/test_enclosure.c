@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Enclosures of operations and of random trees over random boxes, judged by long
+/* Enclosures of operations and of random trees over random boxes, checked by long
  * double: its value at a point of the box, and what evaluation gives there, lie inside; and
  * they are not much wider than what is seen there. Taylor coefficients against Cauchy's integral.
  */

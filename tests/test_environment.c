@@ -84,8 +84,8 @@ static double largest(const double *x, size_t size)
 }
 
 /* Largest difference between a and b * factor, relative to the largest value of a. */
-static double apart(const struct result *a, const struct result *b, enum br_field_kind kind,
-                    double factor)
+static double distance(const struct result *a, const struct result *b, enum br_field_kind kind,
+                       double factor)
 {
     const double *x = a->value[kind][0], *y = b->value[kind][0];
     const double scale = largest(x, a->size[kind]);
@@ -164,10 +164,10 @@ static void compare_modes(const struct br_scene *s, const char *name,
         const double limit = method->scheme->adaptive ? 100 * method->tolerance
                                                       : one_sided_by(method) * nearest.round_off;
         for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            if (!(apart(&nearest, &r, kind, 1) <= limit))
+            if (!(distance(&nearest, &r, kind, 1) <= limit))
                 fail_msg("%s, %s, %s, rounding %s: off by %g, expected %g at most", name,
                          method->solver->name, method->scheme->name, modes[i].name,
-                         apart(&nearest, &r, kind, 1), limit);
+                         distance(&nearest, &r, kind, 1), limit);
     }
 }
 
@@ -263,10 +263,10 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
                          : method->scheme->adaptive ? 100 * method->tolerance
                                                     : 16 * a.round_off + numbers;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
+        if (!(distance(&a, &b, kind, 1 / u->metre) <= limit))
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
                      method->solver->name, method->scheme->name, method->friction->name, n,
-                     u->metre, u->second, u->kilogram, apart(&a, &b, kind, 1 / u->metre), limit);
+                     u->metre, u->second, u->kilogram, distance(&a, &b, kind, 1 / u->metre), limit);
 }
 
 /* The most vibrations that elements of either field make in the scene. */

@@ -14,7 +14,7 @@ struct scalar {
     double rate, amplitude, omega, constant;
     double start, value;
     bool held;    /* y' = 0 instead */
-    double limit; /* of the guard below */
+    double limit; /* of the switching function below */
 };
 
 static double particular(const struct scalar *s, double t)
@@ -57,18 +57,18 @@ static double first_root(double (*f)(double, void *), struct scalar *s, double e
     return root;
 }
 
-static double slip_guard(double t, void *scalar)
+static double slip_switching(double t, void *scalar)
 {
     return drive(scalar, t);
 }
 
-static double stick_guard(double t, void *scalar)
+static double stick_switching(double t, void *scalar)
 {
     const struct scalar *s = scalar;
     return s->limit - fabs(drive(s, t));
 }
 
-static double contact_guard(double t, void *scalar)
+static double contact_switching(double t, void *scalar)
 {
     const struct scalar *s = scalar;
     return scalar_at(s, t) - s->limit;
@@ -113,7 +113,7 @@ TEST(test_slider)
     size_t n = 0;
     check_event(&event[n++], 0, BR_STICK);
     for (;;) {
-        const double t = first_root(tip.held ? stick_guard : slip_guard, &tip, s.duration);
+        const double t = first_root(tip.held ? stick_switching : slip_switching, &tip, s.duration);
         check_piece(&solved, BR_BENDING, &tip, fmin(t, s.duration));
         if (!(t < s.duration))
             break;
@@ -150,7 +150,7 @@ TEST(test_bouncing)
     bool open = true;
     check_event(&event[n++], 0, BR_OPEN);
     for (;;) {
-        const double t = first_root(contact_guard, &tip, s.duration);
+        const double t = first_root(contact_switching, &tip, s.duration);
         check_piece(&solved, BR_AXIAL, &tip, fmin(t, s.duration));
         if (!(t < s.duration))
             break;

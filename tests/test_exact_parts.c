@@ -101,19 +101,19 @@ TEST(test_radau_stability)
 
 /* ---- a beam on one element, and on four, one of which is narrow ---- */
 
-enum { PIECES = 4 };
-static const double piece_end[] = {0, 0.75, 0.75 + 2.5e-8, 1.9, 2.5};
-static const size_t piece_terms[] = {12, 4, 12, 12};
+enum { ELEMENTS = 4 };
+static const double spectral_end[] = {0, 0.75, 0.75 + 2.5e-8, 1.9, 2.5};
+static const size_t spectral_terms[] = {12, 4, 12, 12};
 
-static struct br_exact_pieces new_pieces(bool one, struct br_store *store)
+static struct br_spectral_elements new_elements(bool one, struct br_store *store)
 {
-    struct br_exact_pieces pieces;
+    struct br_spectral_elements spectral;
     if (one)
-        br_pieces_init(&pieces, 1, 1, (const double[]){0, 1}, (const size_t[]){30}, store);
+        br_spectral_init(&spectral, 1, 1, (const double[]){0, 1}, (const size_t[]){30}, store);
     else
-        br_pieces_init(&pieces, 2.5, PIECES, piece_end, piece_terms, store);
+        br_spectral_init(&spectral, 2.5, ELEMENTS, spectral_end, spectral_terms, store);
     assert_false(store->failed);
-    return pieces;
+    return spectral;
 }
 
 /* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2; and values at the tip
@@ -124,7 +124,8 @@ TEST(test_modes)
                            7.854757438237612564861};
     for (int one = 0; one < 2; one++) {
         struct br_store store = {0};
-        struct br_modes rod = {.pieces = new_pieces(one, &store)}, beam = {.pieces = rod.pieces};
+        struct br_modes rod = {.spectral = new_elements(one, &store)},
+                        beam = {.spectral = rod.spectral};
         assert_int_equal(br_modes_init(&rod, 1, &store, NULL), BR_OK);
         assert_int_equal(br_modes_init(&beam, 2, &store, NULL), BR_OK);
         for (size_t i = 0; i < 3; i++) {
@@ -137,36 +138,37 @@ TEST(test_modes)
     }
 }
 
-/* Of the pieces, each with one more for the integral. */
+/* Of the spectral elements, each with one more for the integral. */
 enum { LENGTH = 64 };
 
-/* The integral from 0 in x / L of -1 on the pieces before `kink` and 1 on the others. */
-static void fill_kink(const struct br_exact_pieces *pieces, size_t kink, double *series)
+/* The integral from 0 in x / L of -1 on the spectral elements before `kink` and 1 on the others. */
+static void fill_kink(const struct br_spectral_elements *spectral, size_t kink, double *series)
 {
     memset(series, 0, LENGTH * sizeof *series);
-    for (size_t e = 0; e < PIECES; e++)
-        series[br_pieces_at(pieces, e, 0)] = (e < kink ? -1 : 1) * sqrt(br_pieces_width(pieces, e));
-    br_pieces_integrate(pieces, 0, series);
+    for (size_t e = 0; e < ELEMENTS; e++)
+        series[br_spectral_at(spectral, e, 0)] =
+            (e < kink ? -1 : 1) * sqrt(br_spectral_width(spectral, e));
+    br_spectral_integrate(spectral, 0, series);
 }
 
-/* |x - a| - a, in x / L, over meshes whose elements the pieces' ends cut: its mean over each
- * element, and its square over all. */
-TEST(test_projection_of_pieces)
+/* |x - a| - a, in x / L, over meshes whose elements the spectral elements' ends cut: its mean over
+ * each element, and its square over all. */
+TEST(test_projection_of_elements)
 {
     struct br_error err = {0};
     static const size_t elements[] = {1, 3, 10, 97};
     struct br_store store = {0};
-    const struct br_exact_pieces pieces = new_pieces(false, &store);
+    const struct br_spectral_elements spectral = new_elements(false, &store);
     double series[LENGTH];
-    fill_kink(&pieces, 3, series);
-    const double a = piece_end[3] / 2.5, b = 1 - a;
+    fill_kink(&spectral, 3, series);
+    const double a = spectral_end[3] / 2.5, b = 1 - a;
     const double square = 2.5 * (a * a * a / 3 + (b * b * b - 3 * a * b * b + 3 * a * a * b) / 3);
     for (size_t i = 0; i < 4; i++) {
         const struct br_exact_mesh mesh = {elements[i], 2};
         const double n = (double)mesh.elements;
         struct br_piecewise *piecewise = NULL;
         double c[3 * 97], rest = NAN, sum = 0;
-        MUST(br_piecewise_create(&piecewise, &pieces, 1, &mesh, &store, &err));
+        MUST(br_piecewise_create(&piecewise, &spectral, 1, &mesh, &store, &err));
         br_piecewise_apply(piecewise, series, c, &rest);
         for (size_t j = 0; j < mesh.elements; j++) {
             const double left = (double)j / n - a, right = ((double)j + 1) / n - a;
@@ -181,14 +183,14 @@ TEST(test_projection_of_pieces)
     br_store_clear(&store);
 }
 
-/* ---- a beam of 2.5 m in three pieces, and x^2 on it ---- */
+/* ---- a beam of 2.5 m in three spectral elements, and x^2 on it ---- */
 
 enum { TERMS = 4, THREE = 3, MOST = THREE * (TERMS + 1) };
 static const double beam = 2.5;
 
 /* Its series, c; cut at a front or not, it is the same. */
-static void project_square(struct br_exact_pieces *pieces, size_t fronts, struct br_store *store,
-                           double c[MOST])
+static void project_square(struct br_spectral_elements *spectral, size_t fronts,
+                           struct br_store *store, double c[MOST])
 {
     static const double end[] = {0, 0.4, 1.7, 2.5};
     struct br_interval front[] = {{1.1, 1.1}};
@@ -196,8 +198,8 @@ static void project_square(struct br_exact_pieces *pieces, size_t fronts, struct
     static const size_t terms[] = {TERMS, TERMS, TERMS};
     struct br_error err;
     struct br_quadrature q;
-    br_pieces_init(pieces, beam, THREE, end, terms, store);
-    br_quadrature_init(&q, pieces, 0, store);
+    br_spectral_init(spectral, beam, THREE, end, terms, store);
+    br_quadrature_init(&q, spectral, 0, store);
     assert_false(store->failed);
     struct br_function f = br_test_function("x^2");
     assert_int_equal(br_quadrature_project(&q, &f, 0, &breaks, c, &err), BR_OK);
@@ -213,18 +215,18 @@ static double squares(size_t count, const double *c)
 }
 
 /* int x^4 d(x/L) = L^4 / 5; with F = x^3 / (3 L), int F^2 d(x/L) = L^4 / 63. */
-TEST(test_pieces)
+TEST(test_elements)
 {
     for (size_t fronts = 0; fronts < 2; fronts++) {
         struct br_store store = {0};
-        struct br_exact_pieces pieces;
+        struct br_spectral_elements spectral;
         double c[MOST];
-        project_square(&pieces, fronts, &store, c);
+        project_square(&spectral, fronts, &store, c);
         assert_near(squares(THREE * TERMS, c), pow(beam, 4) / 5, 1e-13);
-        assert_near(br_pieces_integral(&pieces, 0, c), beam * beam / 3, 1e-13);
-        br_pieces_integrate(&pieces, 0, c);
+        assert_near(br_spectral_integral(&spectral, 0, c), beam * beam / 3, 1e-13);
+        br_spectral_integrate(&spectral, 0, c);
         assert_near(squares(MOST, c), pow(beam, 4) / 63, 1e-13);
-        assert_near(br_pieces_integral(&pieces, 1, c), beam * beam / 12, 1e-13);
+        assert_near(br_spectral_integral(&spectral, 1, c), beam * beam / 12, 1e-13);
         br_store_clear(&store);
     }
 }

@@ -296,9 +296,10 @@ static void print_study(FILE *out)
     m.study.norm = &br_norm_energy;
     for (int part = 0; part < BR_PARTS; part++)
         for (int axis = 0; axis < BR_AXES; axis++) {
-            struct br_seen_order *o = &m.report.seen[part][axis];
+            struct br_observed_order *o = &m.report.observed[part][axis];
             const double one = 1 + part + 3 * axis;
-            *o = (struct br_seen_order){.asked = true, .points = 4, .theory.formal = part ? 2 : 1};
+            *o = (struct br_observed_order){
+                .asked = true, .points = 4, .theory.formal = part ? 2 : 1};
             o->order = part == 2 ? (struct br_estimate){NAN, NAN, NAN}
                                  : (struct br_estimate){one, one - 0.1, one + 0.2};
             snprintf(o->by, sizeof o->by, "errors of %d", part == 1 ? 0 : part);

@@ -55,7 +55,8 @@ static const struct br_history_row *last_row(size_t example)
     return &r->row[r->rows - 1];
 }
 
-/* The display hears of every step of an exact solution, and of those that judge the tables. */
+/* The display hears of every step of an exact solution, and of those that the tables are measured
+ * against. */
 TEST(test_progress)
 {
     assert_true(told > 100);

@@ -24,12 +24,12 @@ static struct br_fits fits; /* of it */
 static void grid_init(bool fine)
 {
     g = (struct grid){.scene = br_test_bare()};
-    g.study = br_test_study(&g.scene, fine ? &br_judge_fine : &br_judge_exact, ROWS, meshes,
+    g.study = br_test_study(&g.scene, fine ? &br_reference_fine : &br_reference_exact, ROWS, meshes,
                             COLUMNS, steps);
     g.study.reference = (struct br_resolution){fine ? 12800 : 0, 100000};
     g.study.cell = g.cell;
-    g.study.judged_by.own_error[BR_AXIAL][0] = g.study.judged_by.own_error[BR_BENDING][0] =
-        fine ? NAN : 0;
+    g.study.reference_report.own_error[BR_AXIAL][0] =
+        g.study.reference_report.own_error[BR_BENDING][0] = fine ? NAN : 0;
     g.study.reference_scale = 1;
     for (size_t i = 0; i < CELLS; i++) {
         g.cell[i].at = (struct br_resolution){meshes[i / COLUMNS], steps[i % COLUMNS]};
@@ -223,16 +223,16 @@ TEST(test_flags)
     fill(&truth, 0, 1);
     /* An exact reference that knows its own error: what is below three times it is marked. */
     const double smallest = br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->error[BR_PART_TOTAL];
-    g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = smallest / 2.9;
+    g.study.reference_report.own_error[BR_AXIAL][BR_DISPLACEMENT] = smallest / 2.9;
     fit(BR_PART_TOTAL);
     assert_int_equal(br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->flag[BR_PART_TOTAL],
                      BR_FLAG_REFERENCE);
     assert_int_equal(g.cell[0].flag[BR_PART_TOTAL], BR_FLAG_NONE);
-    g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = smallest / 3.1;
+    g.study.reference_report.own_error[BR_AXIAL][BR_DISPLACEMENT] = smallest / 3.1;
     fit(BR_PART_TOTAL);
     assert_int_equal(br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->flag[BR_PART_TOTAL],
                      BR_FLAG_NONE);
-    g.study.judged_by.round_off = 1; /* nothing can be told any more */
+    g.study.reference_report.round_off = 1; /* nothing can be told any more */
     fit(BR_PART_TOTAL);
     for (size_t i = 0; i < CELLS; i++)
         assert_int_equal(g.cell[i].flag[BR_PART_TOTAL], BR_FLAG_ROUND_OFF);
@@ -367,8 +367,8 @@ TEST(test_own_error)
         fill(&truth, 0, 1);
         for (size_t i = 0; i < CELLS; i++)
             g.cell[i].error[part] = g.cell[i].error[BR_PART_TOTAL];
-        g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = 5e-9;
-        g.study.judged_by.own_error[BR_BENDING][BR_DISPLACEMENT] = 2e-9;
+        g.study.reference_report.own_error[BR_AXIAL][BR_DISPLACEMENT] = 5e-9;
+        g.study.reference_report.own_error[BR_BENDING][BR_DISPLACEMENT] = 2e-9;
         fit(part);
         CLOSE(fits.reference_error, told[part], 1e-20);
     }

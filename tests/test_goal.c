@@ -83,7 +83,7 @@ static struct br_trade *make(const struct br_scene *scene, struct br_trade_goal 
     t->request.repeats = 1;
     t->request.seconds = 4;
     MUST(br_trade_lay_out(t, grid, &err));
-    MUST(br_trade_foresee(t, &err));
+    MUST(br_trade_estimate(t, &err));
     *status = br_trade_run(t, failure);
     return t;
 }
@@ -154,8 +154,8 @@ TEST(test_promise)
         }
 }
 
-/* The least error within some seconds. The coarsest mesh may do. A judge whose own error depends on
- * the mesh is asked where it is best. What the reference cannot judge is refused. */
+/* The least error within some seconds. The coarsest mesh may do. A reference whose own error
+ * depends on the mesh is asked where it is best. What the reference cannot resolve is refused. */
 TEST(test_goals)
 {
     static const struct {

@@ -353,7 +353,7 @@ static void fatal(const char *reason, const char *file, int line, int number)
     fail_msg("%s (%s:%d, %d)", reason, file, line, number);
 }
 
-/* What a thread does, often: orders of a table of its own, which a verdict judges and the report
+/* What a thread does, often: orders of a table of its own, which gets a verdict and the report
  * shows, and a table that is refused. */
 struct job {
     double order; /* of its errors */

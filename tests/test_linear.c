@@ -461,11 +461,11 @@ static bool always(void)
     return true;
 }
 
-static void count_step(const struct br_strip *strip, const struct br_strip_drive *drive,
-                       const struct br_strip_ends *ends)
+static void count_step(const struct br_segments *segments, const struct br_segment_drive *drive,
+                       const struct br_segment_ends *ends)
 {
     steps_counted++;
-    br_kernel_find("portable")->loops[BR_AXIAL]->advance(strip, drive, ends);
+    br_kernel_find("portable")->loops[BR_AXIAL]->advance(segments, drive, ends);
 }
 
 /* The one that is asked for does the work. */

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "study/scene/file.h"
 #include "support.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Manufactured solutions as scenes: every refusal, the data that a solution determines against
- * closed forms, derivatives against those by hand, what is checked of a solution, and the judge. */
+ * closed forms, derivatives against those by hand, what is checked of a solution, and the
+ * reference. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -215,7 +216,7 @@ TEST(test_given)
     }
 }
 
-/* ---- the judge ---- */
+/* ---- the reference ---- */
 
 /* exp(x) t^2 at t = 3 on three elements of [0, 2]: the modes and what they leave out make up the
  * norm; the first of them is a mean. */
@@ -229,32 +230,33 @@ TEST(test_projection)
     scene.duration = 6;
     scene.axial.solution = scene.bending.solution = (char[]){"exp(x)*t^2"};
     scene.axial.given = scene.bending.given = br_test_function(scene.axial.solution);
-    const struct br_judge_request request = {
+    const struct br_reference_request request = {
         .scene = &scene, .axial_degree = 2, .levels = 10, .mesh_count = 2, .mesh = mesh};
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_TIP; measure++) {
-            void *judge;
+            void *reference;
             double modes[3 * BR_MOST_MODES], sum = 0;
             struct br_view view = {.values = modes};
             const struct br_sample_at at = {kind, (enum br_measure)measure, 1};
-            MUST(br_judge_mms.create(&judge, &request, &err));
-            MUST(br_judge_mms.advance(judge, at.kind, 5, &err));
-            br_judge_mms.sample(judge, &at, &view);
+            MUST(br_reference_mms.create(&reference, &request, &err));
+            MUST(br_reference_mms.advance(reference, at.kind, 5, &err));
+            br_reference_mms.sample(reference, &at, &view);
             for (size_t m = 0; m < 3 * view.modes; m++)
                 sum += modes[m] * modes[m];
             const double norm = factor[measure] * factor[measure] * expm1(4) / 2;
             CLOSE(sum + view.rest, norm, 1e-12 * norm);
             CLOSE(modes[0], factor[measure] * sqrt(1.5) * expm1(2.0 / 3), 1e-12);
             assert_true(view.rest > 0);
-            AT_MOST(br_judge_mms.report(judge).own_error[kind][measure], 1e-10 * sqrt(norm));
-            br_judge_mms.free(judge);
+            AT_MOST(br_reference_mms.report(reference).own_error[kind][measure],
+                    1e-10 * sqrt(norm));
+            br_reference_mms.free(reference);
         }
     br_function_free(&scene.axial.given);
 }
 
 static struct br_study study_of(const struct br_scene *scene, const size_t *n, const size_t *steps)
 {
-    struct br_study s = br_test_study(scene, &br_judge_mms, 2, n, 2, steps);
+    struct br_study s = br_test_study(scene, &br_reference_mms, 2, n, 2, steps);
     s.method = br_test_method(NULL, "implicit", NULL);
     return s;
 }
@@ -274,7 +276,7 @@ TEST(test_exact)
         for (int p = 0; p < BR_PARTS; p++)
             AT_MOST(s.cell[c].error[p], 2e-13);
     assert_true(s.reference_scale > 1);
-    AT_MOST(s.judged_by.own_error[BR_BENDING][BR_DISPLACEMENT], 1e-13 * s.reference_scale);
+    AT_MOST(s.reference_report.own_error[BR_BENDING][BR_DISPLACEMENT], 1e-13 * s.reference_scale);
     assert_string_equal(s.events,
                         "Manufactured solution: u = x*(1 + t), w = x^2*(3 - x)*(1 - 2*t).\n");
     br_study_clear(&s);
@@ -313,7 +315,7 @@ TEST(test_coulomb_limit)
     for (size_t i = 0; i < 2 && !br_test_quick(); i++) {
         struct br_error err = {0};
         struct br_scene scene = br_test_bundled(rows[i].scene);
-        struct br_study s = br_test_study(&scene, &br_judge_fine, 2, n, 1, &steps);
+        struct br_study s = br_test_study(&scene, &br_reference_fine, 2, n, 1, &steps);
         s.method = s.reference_method = br_test_method(NULL, "implicit", NULL);
         s.reference = (struct br_resolution){768, steps};
         MUST(br_study_run(&s, 1, 2, NULL, &err));

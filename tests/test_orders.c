@@ -814,7 +814,7 @@ TEST(test_finer)
 {
     double given;
     find("n,e\n8,.049382715604936\n16,.012345678901234\n32,.0030864197253085\n", NULL);
-    struct br_orders_forecast f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    struct br_orders_forecast f = br_orders_forecast_of(&found.orders, &found.orders.of[0]);
     CLOSE(br_orders_next(&found.orders, &f, &given), .000771604931327125, 1e-12);
     CLOSE(given, 64, 0);
     CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 57, 0); /* 56.2 */
@@ -823,22 +823,22 @@ TEST(test_finer)
     find("h,u\n1,1.1415926535897931\n.5,2.6415926535897931\n.25,3.0165926535897931\n"
          ".125,3.1103426535897931\n",
          "u"); /* pi - 2 h^2 */
-    f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    f = br_orders_forecast_of(&found.orders, &found.orders.of[0]);
     CLOSE(f.number, 1.25 * 0.03125 / 3.1103426535897931, 1e-12);
     CLOSE(br_orders_next(&found.orders, &f, &given), f.number / 4, 1e-12);
     CLOSE(given, 0.0625, 0);
     CLOSE(br_orders_needed(&found.orders, &f, f.number / 16), 0.03125, 1e-12);
     find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n.0625,\n", "u");
-    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find("h,e\n1,1.01\n.5,.26\n.25,.0725\n.125,.025625\n.0625,.01390625\n", NULL); /* h^2 + .01 */
-    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find(floor_table(12, pow(4, -7)), NULL); /* its rows are left out */
-    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find(table_of(4, 4, 2, 1), NULL); /* a grid */
-    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find("dofs,e\n64,.049382715604936\n256,.012345678901234\n1024,.0030864197253085\n", NULL);
     CLOSE(br_orders_in_dimension(&found.orders, 2, 3), 3, 1e-12);
-    f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    f = br_orders_forecast_of(&found.orders, &found.orders.of[0]);
     br_orders_next(&found.orders, &f, &given);
     CLOSE(given, 4096, 0);
     assert_true(
@@ -1157,7 +1157,7 @@ static bool on_two_diagonals(int i, int j)
     return j == i || j == i + 1;
 }
 
-static void judge_both(const char *table, double p, double q, int in_h, int in_k)
+static void check_both(const char *table, double p, double q, int in_h, int in_k)
 {
     char expected[64], why[768];
     snprintf(expected, sizeof expected, "l2: h %g +- 0.1", p);
@@ -1172,7 +1172,7 @@ static void judge_both(const char *table, double p, double q, int in_h, int in_k
 
 /* An order of zero in h is a constant, and no interval comes from a fit that goes through all
  * points: the order in h is hidden, that in k has a width of its digits. */
-TEST(test_an_axis_that_is_not_seen)
+TEST(test_an_axis_that_is_not_observed)
 {
     for (int kind = 0; kind < KINDS; kind++) {
         const char *table = kind_of(steps_alone, kind, 3, NULL);
@@ -1183,7 +1183,7 @@ TEST(test_an_axis_that_is_not_seen)
         assert_non_null(strstr(answer[BR_AXIS_SPACE].open, "hidden"));
         assert_true(k->low <= 1 && 1 <= k->high);
         AT_MOST(2e-3, k->high - k->low); /* half a unit of three digits is up to 0.5 % */
-        judge_both(table, 2, 1, BR_INCONCLUSIVE, BR_PASS);
+        check_both(table, 2, 1, BR_INCONCLUSIVE, BR_PASS);
     }
 }
 
@@ -1209,7 +1209,7 @@ TEST(test_blown_up_cells)
 {
     for (int kind = 0; kind < KINDS; kind++) {
         const char *table = kind_of(blown_up, kind, 6, NULL);
-        judge_both(table, 2, 1, BR_PASS, BR_PASS);
+        check_both(table, 2, 1, BR_PASS, BR_PASS);
         find(table, NULL);
         const struct br_quantity_orders *of = &found.orders.of[0];
         for (size_t i = 0; i < found.numbers.rows; i++) {
@@ -1227,9 +1227,9 @@ TEST(test_blown_up_cells)
 TEST(test_two_diagonals)
 {
     for (int kind = 0; kind < KINDS; kind++) {
-        judge_both(kind_of(of_both, kind, 6, on_two_diagonals), 2, 1, BR_PASS, BR_PASS);
+        check_both(kind_of(of_both, kind, 6, on_two_diagonals), 2, 1, BR_PASS, BR_PASS);
         assert_int_equal(found.orders.of[0].lines, 0);
-        judge_both(kind_of(alike, kind, 6, on_two_diagonals), 2, 2, BR_PASS, BR_PASS);
+        check_both(kind_of(alike, kind, 6, on_two_diagonals), 2, 2, BR_PASS, BR_PASS);
     }
 }
 

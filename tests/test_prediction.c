@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Predicted errors against those that the exact reference measures. */
-#include "study/foresee/prediction.h"
+#include "study/estimate/prediction.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,7 +48,7 @@ static void show(const char *what, const struct tally *t)
 static const size_t meshes[] = {3, 16, 100}, steps[] = {1, 8, 40, 200};
 enum { MESHES = sizeof meshes / sizeof *meshes, STEPS = sizeof steps / sizeof *steps };
 
-/* Adds what a cell shows of each field whose error the judge can tell. */
+/* Adds what a cell shows of each field whose error the reference can tell. */
 static void count_cell(struct tally *t, const struct br_study *s, const struct br_cell *cell,
                        double budget)
 {
@@ -66,7 +66,7 @@ static void count_cell(struct tally *t, const struct br_study *s, const struct b
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const double error = cell->error[parts[kind]];
         const double own =
-            br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, parts[kind]);
+            br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, parts[kind]);
         if (s->reference_size[kind] > 0 && !(error <= 10 * own))
             count_one(t, &p, kind, error / s->reference_size[kind]);
     }
@@ -84,8 +84,8 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
     s.scene = scene;
     s.norm = &br_norm_l2;
     s.method = c.method;
-    if (!s.judge)
-        s.judge = &br_judge_exact;
+    if (!s.reference_kind)
+        s.reference_kind = &br_reference_exact;
     MUST(br_study_run_each(&s, 1, 0, NULL, &err));
     for (size_t i = 0; !s.failure.status && i < br_study_cells(&s); i++)
         count_cell(t, &s, &s.cell[i], budget);
@@ -260,7 +260,7 @@ TEST(test_random)
             .k_count = 1,
             .n = &n,
             .steps = &k,
-            .judge = &br_judge_fine,
+            .reference_kind = &br_reference_fine,
             .reference_method = adaptive.method,
             .reference = {n * (4 + 400 / n), k},
         };

@@ -146,7 +146,7 @@ TEST(test_grid)
         for (size_t i = 0; i < 6; i++) {
             const struct br_numbers_row *row = &numbers.row[i];
             assert_null(row->failure);
-            assert_false(row->kept);
+            assert_false(row->cached);
             assert_true(row->given[BR_AXIS_SPACE] == n[i] && row->given[BR_AXIS_TIME] == k[i]);
             assert_true(row->z[BR_AXIS_SPACE] == 1 / n[i] && row->z[BR_AXIS_TIME] == k[i]);
             CLOSE(row->number[0], 1 / (n[i] * n[i]) + k[i], 1e-15);
@@ -431,33 +431,34 @@ TEST(test_times_of_repeated)
     AT_MOST(sum, br_seconds() - begun);
 }
 
-/* The mean of 4 runs and its deviation; runs are kept one by one; one that fails fails its cell. */
+/* The mean of 4 runs and its deviation; runs are cached one by one; one that fails fails its cell.
+ */
 TEST(test_repeated)
 {
-    char kept[128];
-    snprintf(kept, sizeof kept, "%s", path_of("kept-repeated"));
+    char cache[128];
+    snprintf(cache, sizeof cache, "%s", path_of("cache-repeated"));
     write_script("drawn", "test $1$2 != 83 || test ! -e $0.fail && echo err=$(($1 + $2 * $2))");
     struct br_orders_request p = program(command_of("drawn", "{n} {repeat}"));
     p.repeat = 4;
-    p.kept = kept;
+    p.cache = cache;
     run(&p);
     assert_int_equal(numbers.rows, 3);
     for (int i = 0; i < 3; i++) {
         CLOSE(numbers.row[i].number[0], (4 << i) + 7.5, 1e-12); /* of 1, 4, 9, 16 */
         CLOSE(numbers.row[i].deviation[0], sqrt((42.25 + 12.25 + 2.25 + 72.25) / 3 / 4), 1e-12);
-        assert_false(numbers.row[i].kept);
+        assert_false(numbers.row[i].cached);
     }
-    has_entries(kept, 12);
+    has_entries(cache, 12);
     run(&p);
-    assert_true(numbers.row[2].kept);
+    assert_true(numbers.row[2].cached);
     CLOSE(numbers.row[2].number[0], 23.5, 1e-12);
     p.command = (char *)command_of("drawn", "{n} 1"); /* the same words each time */
     run(&p);
-    has_entries(kept, 21);                                    /* the first of each is there */
-    assert_false(numbers.row[0].kept || numbers.row[2].kept); /* others are new */
+    has_entries(cache, 21);                                       /* the first of each is there */
+    assert_false(numbers.row[0].cached || numbers.row[2].cached); /* others are new */
     p.command = (char *)command_of("drawn", "{n} {repeat}");
     shell("touch drawn.fail");
-    p.kept = NULL;
+    p.cache = NULL;
     run(&p);
     assert_null(numbers.row[0].failure);
     assert_non_null(numbers.row[1].failure);
@@ -639,7 +640,7 @@ TEST(test_memory_of_repeated)
     AT_MOST(1.3e8, numbers.row[0].bytes);
 }
 
-/* ---- kept cells ---- */
+/* ---- cached cells ---- */
 
 static const char counting[] = "echo run >> $0.runs; [ $1 = 8 ] && [ -e $0.fails ] && exit 1\n"
                                "echo err=$1";
@@ -647,31 +648,31 @@ static const char counting[] = "echo run >> $0.runs; [ $1 = 8 ] && [ -e $0.fails
 static void expect_run(struct br_orders_request *p, size_t runs, double factor)
 {
     run(p);
-    size_t kept = 0;
+    size_t cached = 0;
     for (size_t i = 0; i < numbers.rows; i++) {
         assert_null(numbers.row[i].failure);
         assert_true(numbers.row[i].number[0] == factor * numbers.row[i].given[0]);
         AT_MOST(numbers.row[i].seconds, 5);
-        kept += numbers.row[i].kept;
+        cached += numbers.row[i].cached;
     }
-    assert_int_equal(kept, numbers.rows - runs);
+    assert_int_equal(cached, numbers.rows - runs);
     shell("touch count.runs; test $(wc -l < count.runs) -eq %zu && rm count.runs", runs);
 }
 
-TEST(test_kept)
+TEST(test_cache)
 {
     static const double four[] = {4, 8, 16, 32};
     write_script("count", counting);
-    char kept[128];
-    snprintf(kept, sizeof kept, "%s", path_of("kept"));
+    char cache[128];
+    snprintf(cache, sizeof cache, "%s", path_of("cache"));
     struct br_orders_request p = program(command_of("count", "{n}"));
-    p.kept = kept;
+    p.cache = cache;
     expect_run(&p, 3, 1);
     expect_run(&p, 0, 1);
     p.anew = true;
     expect_run(&p, 3, 1);
     p.anew = false;
-    has_entries(kept, 3);
+    has_entries(cache, 3);
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
     expect_run(&p, 1, 1);
     const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX, NULL, false, false};
@@ -681,28 +682,28 @@ TEST(test_kept)
     write_script("count", "echo run >> $0.runs; echo err=$(($1 * 2))");
     expect_run(&p, 4, 2);
     expect_run(&p, 0, 2);
-    has_entries(kept, 12);
+    has_entries(cache, 12);
     write_script("count", counting); /* as it was */
     expect_run(&p, 0, 1);
 }
 
 /* A script that an interpreter runs counts, too, also behind a =. */
-TEST(test_kept_script)
+TEST(test_cached_script)
 {
     static const char *const forms[] = {
         "script {n}",
         "/bin/sh %s {n}",
         "/usr/bin/env SCRIPT=%s sh -c '. $SCRIPT' x {n}",
     };
-    char command[256], kept[128], folders[256];
+    char command[256], cache[128], folders[256];
     char *before = strdup(getenv("PATH"));
-    snprintf(kept, sizeof kept, "%s", path_of("kept-script"));
+    snprintf(cache, sizeof cache, "%s", path_of("cache-script"));
     snprintf(folders, sizeof folders, "/no/such/folder:%s:/usr/bin:/bin", folder);
     setenv("PATH", folders, 1);
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         snprintf(command, sizeof command, forms[i], path_of("script"));
         struct br_orders_request p = program(command);
-        p.kept = kept;
+        p.cache = cache;
         for (int version = 1; version <= 2; version++) {
             char text[64];
             snprintf(text, sizeof text, "echo err=%d", version);
@@ -710,7 +711,7 @@ TEST(test_kept_script)
             for (int again = 0; again < 2; again++) {
                 run(&p);
                 assert_true(numbers.row[0].number[0] == version);
-                assert_int_equal(numbers.row[0].kept, again);
+                assert_int_equal(numbers.row[0].cached, again);
             }
         }
     }
@@ -719,28 +720,28 @@ TEST(test_kept_script)
 }
 
 /* Failed cells are not kept, nor read those that are broken. */
-TEST(test_not_kept)
+TEST(test_not_cached)
 {
-    char kept[128];
-    snprintf(kept, sizeof kept, "%s", path_of("kept-not"));
+    char cache[128];
+    snprintf(cache, sizeof cache, "%s", path_of("cache-not"));
     write_script("count", counting);
     write_script("count.fails", "");
     struct br_orders_request p = program(command_of("count", "{n}"));
-    p.kept = kept;
+    p.cache = cache;
     run(&p);
     assert_non_null(numbers.row[1].failure);
-    has_entries(kept, 2);
+    has_entries(cache, 2);
     shell("rm count.fails count.runs");
     expect_run(&p, 1, 1);
     static const char *const texts[] = {"", "beamrate kept 1\n", "beamrate kept 2\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        shell("for cell in %s/*; do printf '%s' > $cell; done", kept, texts[i]);
+        shell("for cell in %s/*; do printf '%s' > $cell; done", cache, texts[i]);
         expect_run(&p, 3, 1);
     }
     expect_run(&p, 0, 1);
-    p.kept = "/dev/null";
+    p.cache = "/dev/null";
     refuse(&p, BR_IO, "/dev/null: a finished cell could not be");
-    p.kept = "/no/such/folder";
+    p.cache = "/no/such/folder";
     refuse(&p, BR_IO, "/no/such/folder: No such file");
 }
 
@@ -755,13 +756,13 @@ TEST(test_unseen)
     signal(SIGCHLD, SIG_DFL);
 }
 
-/* Studies that run beside each other with one folder of kept cells. */
+/* Studies that run beside each other with one folder of cached cells. */
 TEST(test_together)
 {
-    char kept[128];
-    snprintf(kept, sizeof kept, "%s", path_of("kept-together"));
+    char cache[128];
+    snprintf(cache, sizeof cache, "%s", path_of("cache-together"));
     struct br_orders_request p = on_grid(1);
-    p.kept = kept;
+    p.cache = cache;
     pid_t child[3];
     for (int i = 0; i < 3; i++) {
         child[i] = fork();
@@ -774,18 +775,18 @@ TEST(test_together)
         assert_int_equal(waitpid(child[i], &status, 0), child[i]);
         assert_int_equal(status, 0);
     }
-    has_entries(kept, 6);
-    p.kept = NULL;
+    has_entries(cache, 6);
+    p.cache = NULL;
     run(&p);
     double anew[6];
     for (size_t i = 0; i < 6; i++) {
-        assert_false(numbers.row[i].kept);
+        assert_false(numbers.row[i].cached);
         anew[i] = numbers.row[i].number[0];
     }
-    p.kept = kept;
+    p.cache = cache;
     run(&p);
     for (size_t i = 0; i < 6; i++)
-        assert_true(numbers.row[i].kept && numbers.row[i].number[0] == anew[i]);
+        assert_true(numbers.row[i].cached && numbers.row[i].number[0] == anew[i]);
 }
 
 /* ---- interruption ---- */
@@ -808,23 +809,23 @@ TEST(test_interrupted)
     double last = 0;
     const struct br_observer observer = {
         .progress = take_progress, .stop = has_started, .self = &last};
-    char kept[128];
-    snprintf(kept, sizeof kept, "%s", path_of("kept-slow"));
+    char cache[128];
+    snprintf(cache, sizeof cache, "%s", path_of("cache-slow"));
     write_script("slow", "[ $1 != 16 ] && echo err=$1 && exit\n"
                          "echo $$ > $0.pid; touch $0.started; exec sleep 3600");
     struct br_orders_request p = program(command_of("slow", "{n}"));
-    p.kept = kept;
+    p.cache = cache;
     p.observer = &observer;
     refuse(&p, BR_INTERRUPTED, "interrupted");
     assert_null(numbers.row);
     expect_dead("slow.pid");
     has_entries("tmp", 0);
-    has_entries(kept, 2);
+    has_entries(cache, 2);
     static const double done[] = {4, 8};
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, done, 2};
     p.observer = NULL;
     run(&p);
-    assert_true(numbers.row[0].kept && numbers.row[1].kept);
+    assert_true(numbers.row[0].cached && numbers.row[1].cached);
 }
 
 /* A program and what it has started end with this process, whatever ends that. A folder that this
@@ -1016,7 +1017,7 @@ TEST(test_changes)
     static const char *const forms[] = {"%s {n}", "/bin/sh %s {n}",
                                         "/usr/bin/env SCRIPT=%s sh -c '. $SCRIPT' x {n}"};
     static const char *const ways[] = {"echo '#' >> %s", "cp -p %1$s new && mv new %1$s", "rm %s"};
-    char command[256], kept[128], text[512], way[256];
+    char command[256], cache[128], text[512], way[256];
     for (size_t i = 0; i < 9; i++) {
         const char *path = path_of("changes");
         snprintf(command, sizeof command, forms[i / 3], path);
@@ -1024,9 +1025,9 @@ TEST(test_changes)
         snprintf(text, sizeof text, "echo run >> %s.runs; [ $1 = 8 ] && %s; echo err=$1; exit",
                  path, way);
         write_script("changes", text);
-        snprintf(kept, sizeof kept, "%s", path_of("kept-changes"));
+        snprintf(cache, sizeof cache, "%s", path_of("cache-changes"));
         struct br_orders_request p = program(command);
-        p.kept = kept;
+        p.cache = cache;
         run(&p);
         assert_true(numbers.row[0].number[0] == 4 && !numbers.row[0].failure);
         for (size_t j = 1; j < 3; j++) {
@@ -1035,10 +1036,10 @@ TEST(test_changes)
                                                : "or a file that the command names, changed during";
             if (!row->failure || !strstr(row->failure, why))
                 fail_msg("%s: %s", command, row->failure);
-            assert_true(isnan(row->number[0]) && !row->kept);
+            assert_true(isnan(row->number[0]) && !row->cached);
         }
-        has_entries(kept, 1);
-        shell("rm -r %s changes.runs", kept);
+        has_entries(cache, 1);
+        shell("rm -r %s changes.runs", cache);
     }
 }
 

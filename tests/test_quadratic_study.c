@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Quadratic elements of the rod in studies: what judges tell of them, and what is kept of a run.
- * Their orders are those that the scenes mms_quadratic and quadratic_rod are checked for. */
+/* Quadratic elements of the rod in studies: what references tell of them, and what is kept of a
+ * run. Their orders are those that the scenes mms_quadratic and quadratic_rod are checked for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,10 +18,10 @@ static struct br_method method_of(const char *contact)
     return method;
 }
 
-/* ---- judges ---- */
+/* ---- references ---- */
 
 /* Modes are orthonormal: the first ones are the same whatever is kept, and so is the norm. */
-static void check_judge(const struct br_judge *judge, const char *name)
+static void check_reference(const struct br_reference *reference_kind, const char *name)
 {
     enum { N = 3, LEVELS = 8 };
     static const size_t mesh = N;
@@ -30,29 +30,29 @@ static void check_judge(const struct br_judge *judge, const char *name)
     double values[2][3 * N], square[2][BR_MEASURES];
     struct br_view view[2];
     for (int degree = 1; degree <= 2; degree++) {
-        struct br_judge_request request = {.scene = &scene,
-                                           .axial_degree = degree,
-                                           .levels = LEVELS,
-                                           .lead = 1,
-                                           .mesh_count = 1,
-                                           .mesh = &mesh};
+        struct br_reference_request request = {.scene = &scene,
+                                               .axial_degree = degree,
+                                               .levels = LEVELS,
+                                               .lead = 1,
+                                               .mesh_count = 1,
+                                               .mesh = &mesh};
         for (int measure = 0; measure < BR_MEASURES; measure++)
             request.measured[BR_AXIAL][measure] = true;
         void *self;
-        MUST(judge->create(&self, &request, &err));
-        MUST(judge->advance(self, BR_AXIAL, LEVELS, &err));
+        MUST(reference_kind->create(&self, &request, &err));
+        MUST(reference_kind->advance(self, BR_AXIAL, LEVELS, &err));
         for (int measure = 0; measure < BR_TIP; measure++) {
             const struct br_sample_at at = {BR_AXIAL, (enum br_measure)measure, 0};
             struct br_view *v = &view[degree - 1];
             v->values = values[degree - 1];
-            judge->sample(self, &at, v);
+            reference_kind->sample(self, &at, v);
             assert_int_equal(v->modes, degree + (measure != BR_STRAIN_RATE));
             double sum = v->rest;
             for (size_t i = 0; i < N * v->modes; i++)
                 sum += v->values[i] * v->values[i];
             square[degree - 1][measure] = sum;
         }
-        judge->free(self);
+        reference_kind->free(self);
     }
     for (int measure = 0; measure < BR_TIP; measure++)
         CLOSE(square[1][measure], square[0][measure], 1e-11 * square[0][measure]);
@@ -62,11 +62,11 @@ static void check_judge(const struct br_judge *judge, const char *name)
     br_scene_clear(&scene);
 }
 
-TEST(test_judges)
+TEST(test_references)
 {
-    check_judge(&br_judge_exact, "example2");
-    if (br_judge_find("mms"))
-        check_judge(br_judge_find("mms"), "mms_smooth");
+    check_reference(&br_reference_exact, "example2");
+    if (br_reference_find("mms"))
+        check_reference(br_reference_find("mms"), "mms_smooth");
 }
 
 /* Looked at: a parabola's modes by Gauss quadrature in all measures. */
@@ -120,7 +120,7 @@ TEST(test_other_degree)
     static const size_t n = 4, steps = 10;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);
+    struct br_study s = br_test_study(&scene, &br_reference_fine, 1, &n, 1, &steps);
     s.method = method_of(NULL);
     s.reference = (struct br_resolution){8, 20};
     REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT,
@@ -128,7 +128,7 @@ TEST(test_other_degree)
     br_scene_clear(&scene);
 }
 
-/* One element, every judge and norm: the smallest arrays. */
+/* One element, every reference and norm: the smallest arrays. */
 TEST(test_one_element)
 {
     const struct br_elements elements = {BR_AXIAL, 2};
@@ -139,10 +139,10 @@ TEST(test_one_element)
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_study chain[3];
-    chain[0] = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);
+    chain[0] = br_test_study(&scene, &br_reference_fine, 1, &n, 1, &steps);
     chain[0].method = chain[0].reference_method = method_of(NULL);
     chain[0].reference = (struct br_resolution){1, 8};
-    chain[0].auditor = &br_judge_exact;
+    chain[0].reference_check = &br_reference_exact;
     br_test_all_norms(chain);
     MUST(br_study_run(chain, 1, 1, NULL, &err));
     for (int i = 0; i < 3; i++) {

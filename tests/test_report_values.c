@@ -11,7 +11,7 @@
 #include "orders/expectation/comparison.h"
 #include "orders/request.h"
 #include "plots/beam/pictures.h"
-#include "study/foresee/prediction.h"
+#include "study/estimate/prediction.h"
 #include "study/paper/paper.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
@@ -99,18 +99,18 @@ static void make(struct br_made_report *m, bool with_exact)
             m->cell[s][i].tip[BR_BENDING] = -0.07 - 0.01 * (double)i - s;
         }
     }
-    m->report.seen[BR_PART_TOTAL][BR_AXIS_SPACE] =
-        (struct br_seen_order){.asked = true,
-                               .order = {2.03, 2.01, 2.05},
-                               .theory = {2, 4, 4, "it is so"},
-                               .by = "differences of successive meshes",
-                               .remark = "agrees with theory"};
-    m->report.seen[BR_PART_TOTAL][BR_AXIS_TIME] =
-        (struct br_seen_order){.asked = true,
-                               .order = {NAN, NAN, NAN},
-                               .theory = {1, 1, 1, ""},
-                               .by = "errors",
-                               .remark = "not measurable: for a reason"};
+    m->report.observed[BR_PART_TOTAL][BR_AXIS_SPACE] =
+        (struct br_observed_order){.asked = true,
+                                   .order = {2.03, 2.01, 2.05},
+                                   .theory = {2, 4, 4, "it is so"},
+                                   .by = "differences of successive meshes",
+                                   .remark = "agrees with theory"};
+    m->report.observed[BR_PART_TOTAL][BR_AXIS_TIME] =
+        (struct br_observed_order){.asked = true,
+                                   .order = {NAN, NAN, NAN},
+                                   .theory = {1, 1, 1, ""},
+                                   .by = "errors",
+                                   .remark = "not measurable: for a reason"};
 }
 
 /* For people. */
@@ -173,7 +173,7 @@ static void print_other_study(FILE *out)
     m.cell[1][11] = m.cell[1][10];
     m.cell[1][11].at.steps = 200;
     m.report.fits[BR_PART_TOTAL].reference_error = NAN;
-    m.exact.judged_by.unstable = true;
+    m.exact.reference_report.unstable = true;
     for (size_t i = 0; i < BR_MADE_CELLS; i++)
         m.report.printed[i] = 1.04 * m.cell[0][i].error[0];
     br_report_study(&m.report, &d);
@@ -316,7 +316,7 @@ static void print_check(FILE *out)
         {.path = "b.yaml",
          .name = "b",
          .of_program = true,
-         .failure = {BR_BAD_INPUT, "its judge & method"},
+         .failure = {BR_BAD_INPUT, "its reference & method"},
          .seconds = 0.5},
         {.path = "c.yaml", .name = "c", .of_program = true, .cases = other, .count = 1},
     };
@@ -371,7 +371,7 @@ static void print_orders(FILE *out)
     for (int i = 0; i < 16; i++) {
         numbers.row[i].seconds = 0.03 * (1 << 2 * (i / 4)) * (1 << i % 4) * (1 + 0.01 * (i % 3));
         numbers.row[i].bytes = 1e6 * (i + 1);
-        numbers.row[i].kept = i % 5 == 1;
+        numbers.row[i].cached = i % 5 == 1;
     }
     numbers.row[7].failure = strdup("exit code 1"); /* at the finest k */
     numbers.row[7].number[0] = numbers.row[7].number[1] = numbers.row[7].number[2] = (double)NAN;
@@ -549,7 +549,7 @@ TEST(answer_comes_first)
     struct br_document d = {0};
     struct br_prediction p = made_prediction;
     const struct br_warnings none = {0};
-    struct br_history_row *last = &report.end.last, kept = *last;
+    struct br_history_row *last = &report.end.last, cache = *last;
     last->displacement[BR_AXIAL] = -0.2216123;
     last->displacement[BR_BENDING] = 3.4567e-9;
     p.round_off = 0;
@@ -573,7 +573,7 @@ TEST(answer_comes_first)
     free(text);
     br_document_clear(&d);
     report.failure.status = BR_OK;
-    *last = kept;
+    *last = cache;
 }
 
 AROUND_TESTS(march, end)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The same scene in other units, and with the beam upside down: all that a study reports, by every
- * judge and in every norm, is the same, in its own unit. What is relative to a wrong length, or
+ * reference and in every norm, is the same, in its own unit. What is relative to a wrong length, or
  * squared by mistake, is not. */
 #include <math.h>
 #include <stdlib.h>
@@ -76,8 +76,8 @@ static void expect(const char *what, double now, double before, double factor, d
         fail_msg("%s is %.12g in the new units, expected %.12g", what, now, factor * before);
 }
 
-/* The same of a judge's own error, which may be round-off: a few times as much is no other unit,
- * where one is a thousand old ones. */
+/* The same of a reference's own error, which may be round-off: a few times as much is no other
+ * unit, where one is a thousand old ones. */
 static void expect_about(const char *what, double now, double before, double factor)
 {
     const double most = log(5);
@@ -103,12 +103,12 @@ static void compare_cells(const struct br_study *a, const struct br_study *b,
     }
 }
 
-static void compare_judges(const struct br_study *a, const struct br_study *b,
-                           const struct factors *f)
+static void compare_references(const struct br_study *a, const struct br_study *b,
+                               const struct factors *f)
 {
     const double sign[2] = {1, f->sign};
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        expect("the reference's audited error", b->reference_error[part], a->reference_error[part],
+        expect("the reference's measured error", b->reference_error[part], a->reference_error[part],
                norm_factor(a->norm, f), f->tolerance);
     expect("the reference's size", b->reference_scale, a->reference_scale, norm_factor(a->norm, f),
            f->tolerance);
@@ -116,8 +116,8 @@ static void compare_judges(const struct br_study *a, const struct br_study *b,
         expect("the reference's tip", b->reference_tip[kind], a->reference_tip[kind],
                f->metre * sign[kind], f->tolerance);
         for (int m = 0; m < BR_MEASURES; m++)
-            expect_about("the judge's own error", b->judged_by.own_error[kind][m],
-                         a->judged_by.own_error[kind][m], measure_factor(kind, m, f));
+            expect_about("the reference's own error", b->reference_report.own_error[kind][m],
+                         a->reference_report.own_error[kind][m], measure_factor(kind, m, f));
     }
 }
 
@@ -157,59 +157,60 @@ static void compare_fits(struct br_study *a, struct br_study *b, const struct fa
 
 /* ---- studies ---- */
 
-static void run(const struct br_scene *scene, const struct br_judge *judge,
+static void run(const struct br_scene *scene, const struct br_reference *reference_kind,
                 struct br_study s[NORMS])
 {
     struct br_error err = {0};
-    s[0] = br_test_study(scene, judge, MESHES, meshes, STEPS, steps);
-    if (judge == &br_judge_fine) {
+    s[0] = br_test_study(scene, reference_kind, MESHES, meshes, STEPS, steps);
+    if (reference_kind == &br_reference_fine) {
         s[0].reference = (struct br_resolution){24, 160};
-        s[0].auditor = &br_judge_exact;
+        s[0].reference_check = &br_reference_exact;
     }
     br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));
 }
 
-static const struct br_judge *const judges[] = {&br_judge_exact, &br_judge_fine};
-enum { JUDGES = sizeof judges / sizeof *judges };
+static const struct br_reference *const references[] = {&br_reference_exact, &br_reference_fine};
+enum { REFERENCES = sizeof references / sizeof *references };
 
 /* The scene as it is, and what is said of it. */
 static struct br_scene before;
-static struct br_study known[JUDGES][NORMS];
+static struct br_study known[REFERENCES][NORMS];
 
 static int run_once(void **state)
 {
     (void)state;
     before = made(1);
-    for (size_t j = 0; j < JUDGES; j++)
-        run(&before, judges[j], known[j]);
+    for (size_t j = 0; j < REFERENCES; j++)
+        run(&before, references[j], known[j]);
     return 0;
 }
 
 static int forget(void **state)
 {
     (void)state;
-    for (size_t j = 0; j < JUDGES; j++)
+    for (size_t j = 0; j < REFERENCES; j++)
         for (size_t m = 0; m < NORMS; m++)
             br_study_clear(&known[j][m]);
     br_scene_clear(&before);
     return 0;
 }
 
-static void compare_studies(size_t judge, const struct br_scene *now, const struct factors *f)
+static void compare_studies(size_t reference_kind, const struct br_scene *now,
+                            const struct factors *f)
 {
-    struct br_study *a = known[judge], b[NORMS];
-    run(now, judges[judge], b);
+    struct br_study *a = known[reference_kind], b[NORMS];
+    run(now, references[reference_kind], b);
     for (size_t m = 0; m < NORMS; m++) {
         assert_true(a[m].cell[0].error[BR_PART_BENDING] > 0);
         compare_cells(&a[m], &b[m], f);
-        compare_judges(&a[m], &b[m], f);
+        compare_references(&a[m], &b[m], f);
         compare_fits(&a[m], &b[m], f);
         br_study_clear(&b[m]);
     }
 }
 
-/* What successive grids say without a judge. */
+/* What successive grids say without a reference. */
 static struct br_study differences_of(const struct br_scene *scene, enum br_axis axis)
 {
     struct br_error err = {0};
@@ -355,7 +356,7 @@ TEST(test_powers_of_two)
 {
     struct br_scene now = in_units(&(struct br_units_change){1024, 0.125, 32});
     const struct factors f = {1024, 0.125, 1, 1e-12};
-    for (size_t j = 0; j < JUDGES; j++)
+    for (size_t j = 0; j < REFERENCES; j++)
         compare_studies(j, &now, &f);
     br_scene_clear(&now);
 }

@@ -3,7 +3,7 @@
  * would never end, is refused. */
 #include "solver/function.h"
 #include "solver/scene.h"
-#include "study/foresee/foreseen.h"
+#include "study/estimate/cost_estimate.h"
 
 #include <malloc.h>
 #include <math.h>
@@ -85,7 +85,7 @@ TEST(test_refused)
     const struct br_study study = {.scene = &scene,
                                    .method = method,
                                    .reference_method = method,
-                                   .judge = &br_judge_fine,
+                                   .reference_kind = &br_reference_fine,
                                    .reference = {1000, 20},
                                    .n = n,
                                    .steps = steps,

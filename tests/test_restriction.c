@@ -55,10 +55,10 @@ static struct br_piecewise *project(const struct shape *s, struct br_store *stor
 {
     struct br_error err = {0};
     struct br_piecewise *out = NULL;
-    struct br_exact_pieces *pieces = br_store_take(store, 1, sizeof *pieces);
-    assert_non_null(pieces);
-    br_pieces_init(pieces, s->beam, 1, (const double[]){0, s->beam}, &s->length, store);
-    MUST(br_piecewise_create(&out, pieces, 0, &s->mesh, store, &err));
+    struct br_spectral_elements *spectral = br_store_take(store, 1, sizeof *spectral);
+    assert_non_null(spectral);
+    br_spectral_init(spectral, s->beam, 1, (const double[]){0, s->beam}, &s->length, store);
+    MUST(br_piecewise_create(&out, spectral, 0, &s->mesh, store, &err));
     return out;
 }
 

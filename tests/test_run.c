@@ -11,7 +11,7 @@
 
 /* ---- energies ---- */
 
-/* Half of a'Ma or a'Ka of nodal values, by the judge's elements, J. */
+/* Half of a'Ma or a'Ka of nodal values, by the reference's elements, J. */
 static double energy_of(const struct br_field *f, enum br_element_matrix matrix, const double *a)
 {
     const struct br_element *e = br_element_of(f->kind, f->degree);
@@ -68,7 +68,7 @@ static struct br_run_report run(const struct br_scene *scene, size_t n, size_t s
     return report;
 }
 
-/* A balance that round-off alone may spoil by more than says something is not judged; others are.
+/* A balance that round-off alone may spoil by more than says something is not checked; others are.
  */
 TEST(test_energy_that_says_nothing)
 {

@@ -223,7 +223,7 @@ static void advance_field(struct br_march *march, enum br_field_kind kind, size_
 }
 
 /* The axial field ahead by up to four steps, in turns of different length. */
-static void march_apart(struct br_march *march, size_t steps)
+static void march_one_by_one(struct br_march *march, size_t steps)
 {
     struct br_error err = {0};
     MUST(br_march_allow_lead(march, 4, &err));
@@ -238,7 +238,7 @@ static void march_apart(struct br_march *march, size_t steps)
     }
 }
 
-TEST(test_fields_apart)
+TEST(test_fields_one_by_one)
 {
     enum { STEPS = 150 };
     for (size_t i = 0; br_time_schemes[i]; i++)
@@ -247,17 +247,17 @@ TEST(test_fields_apart)
             struct br_method method = br_test_method(solver ? "plain" : NULL, "implicit", "exact");
             method.scheme = br_time_schemes[i];
             struct br_march *together = br_test_march(&scene, N, STEPS, &method);
-            struct br_march *apart = br_test_march(&scene, N, STEPS, &method);
+            struct br_march *single = br_test_march(&scene, N, STEPS, &method);
             br_test_advance(together, STEPS);
-            march_apart(apart, STEPS);
+            march_one_by_one(single, STEPS);
             for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
                 double a[2][SIZE] = {{0}}, b[2][SIZE] = {{0}};
                 br_march_get(together, kind, a[0], a[1]);
-                br_march_get(apart, kind, b[0], b[1]);
+                br_march_get(single, kind, b[0], b[1]);
                 assert_memory_equal(a, b, sizeof a);
             }
             br_march_free(together);
-            br_march_free(apart);
+            br_march_free(single);
             br_scene_clear(&scene);
         }
 }
@@ -268,7 +268,7 @@ static void study_by(const struct br_scene *scene, const struct br_method *metho
 {
     static const size_t meshes[] = {4, 8}, steps[] = {50, 100};
     struct br_error err = {0};
-    struct br_study s = br_test_study(scene, &br_judge_fine, 2, meshes, 2, steps);
+    struct br_study s = br_test_study(scene, &br_reference_fine, 2, meshes, 2, steps);
     s.method = *method;
     s.reference = (struct br_resolution){16, 200};
     s.reference_method = *method;

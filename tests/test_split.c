@@ -120,7 +120,7 @@ TEST(test_floor_of_two_marches)
     struct br_scene scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     struct br_study study =
-        br_test_study(&scene, &br_judge_fine, 1, &split.at.n, 1, &split.at.steps);
+        br_test_study(&scene, &br_reference_fine, 1, &split.at.n, 1, &split.at.steps);
     study.norm = split.norm[0];
     study.method = study.reference_method = split.method;
     study.method.solver = br_linear_solver_find("plain");
@@ -128,9 +128,9 @@ TEST(test_floor_of_two_marches)
     study.reference = split.at;
     MUST(br_study_run(&study, 1, 1, NULL, &err));
     for (int part = 0; part < BR_PARTS; part++) {
-        const double apart = study.cell[0].error[part];
-        assert_true(apart > 0);
-        CLOSE(share_of(&split, "lag")->floor[0][part], 2 * apart, 1e-9 * apart);
+        const double distinct = study.cell[0].error[part];
+        assert_true(distinct > 0);
+        CLOSE(share_of(&split, "lag")->floor[0][part], 2 * distinct, 1e-9 * distinct);
     }
     br_study_clear(&study);
     br_scene_clear(&scene);
@@ -145,7 +145,7 @@ TEST(test_whole)
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     for (size_t m = 0; m < split.norms; m++) {
         struct br_study study =
-            br_test_study(&scene, &br_judge_exact, 1, &split.at.n, 1, &split.at.steps);
+            br_test_study(&scene, &br_reference_exact, 1, &split.at.n, 1, &split.at.steps);
         study.norm = split.norm[m];
         study.method = split.method;
         MUST(br_study_run(&study, 1, 1, NULL, &err));

@@ -225,17 +225,17 @@ TEST(test_growth_of_loads)
     }
 }
 
-TEST(test_judge)
+TEST(test_outcome)
 {
     const struct br_method euler = br_method_default();
     struct br_method bdf2 = euler;
     bdf2.scheme = br_time_scheme_find("bdf2");
-    assert_int_equal(br_stability_judge(&euler, 0.09), BR_STABLE);
-    assert_int_equal(br_stability_judge(&euler, 0.11), BR_UNSTABLE);
-    assert_int_equal(br_stability_judge(&euler, NAN), BR_UNSTABLE);
-    assert_int_equal(br_stability_judge(&euler, INFINITY), BR_UNSTABLE);
-    assert_int_equal(br_stability_judge(&bdf2, 9), BR_STABLE);
-    assert_int_equal(br_stability_judge(&bdf2, 11), BR_UNSTABLE);
+    assert_int_equal(br_stability_outcome_of(&euler, 0.09), BR_STABLE);
+    assert_int_equal(br_stability_outcome_of(&euler, 0.11), BR_UNSTABLE);
+    assert_int_equal(br_stability_outcome_of(&euler, NAN), BR_UNSTABLE);
+    assert_int_equal(br_stability_outcome_of(&euler, INFINITY), BR_UNSTABLE);
+    assert_int_equal(br_stability_outcome_of(&bdf2, 9), BR_STABLE);
+    assert_int_equal(br_stability_outcome_of(&bdf2, 11), BR_UNSTABLE);
 }
 
 /* The energy at the end over what its own march and one by implicit Euler, on the same mesh with

@@ -58,19 +58,21 @@ static const size_t grid_n[] = {10, 20, 30, 40, 60}, grid_steps[] = {20, 50, 100
     X(SAID, density, 1, 2) X(NONE, field, FIELDS, )                              /* FIELD */       \
         X(NONE, contact, contact, contact) X(NONE, friction, friction, friction) /* those lists */ \
         X(NONE, derived, {{0}}, )
-#define STUDY(X)                                                                                   \
-    X(NONE, scene, &scene, &scene)                                                                 \
-    /* SCENE */ X(SAID, norm, &br_norm_l2, &br_norm_energy) X(                                     \
-        NONE, method, method, method) /* METHOD */ X(SAID, cell_method, NULL, apart)               \
-        X(SAID, judge, &br_judge_fine, &br_judge_mms) X(SAID, reference_method, method, apart[0])  \
-            X(SAID, reference, finer, finest) X(SAID, auditor, NULL, &br_judge_exact)              \
-                X(SAID, n_count, 2, 1) X(SAID, k_count, 2, 1) X(SAID, path, false, true)           \
-                    X(SAID, n, grid_n, grid_n + 1) X(SAID, steps, grid_steps, grid_steps + 1)      \
-                        X(NONE, next_norm, NULL, NULL) X(NONE, engine, {0}, )                      \
-                            X(NONE, cell, NULL, NULL) X(NONE, judged_by, unjudged, )               \
-                                X(NONE, events, NULL, NULL) X(NONE, reference_scale, 0, 0)         \
-                                    X(NONE, reference_size, {0}, ) X(NONE, reference_error, {0}, ) \
-                                        X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
+#define STUDY(X) \
+    X(NONE, scene, &scene, &scene) /* SCENE */ \
+    X(SAID, norm, &br_norm_l2, &br_norm_energy) \
+    X(NONE, method, method, method) /* METHOD */ \
+    X(SAID, cell_method, NULL, distinct) \
+    X(SAID, reference_kind, &br_reference_fine, &br_reference_mms) \
+    X(SAID, reference_method, method, distinct[0]) \
+    X(SAID, reference, finer, finest) \
+    X(SAID, reference_check, NULL, &br_reference_exact) \
+    X(SAID, n_count, 2, 1) X(SAID, k_count, 2, 1) X(SAID, path, false, true) \
+    X(SAID, n, grid_n, grid_n + 1) X(SAID, steps, grid_steps, grid_steps + 1) \
+    X(NONE, next_norm, NULL, NULL) X(NONE, engine, {0}, ) X(NONE, cell, NULL, NULL) \
+    X(NONE, reference_report, unchecked, ) X(NONE, events, NULL, NULL) \
+    X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
+    X(NONE, reference_error, {0}, ) X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
 
 static char *text_of(const struct br_study *s)
 {
@@ -108,11 +110,11 @@ TEST(test_all_members_are_stated)
     struct br_friction friction = {FRICTION(FIRST)};
     struct br_scene scene = {SCENE(FIRST)};
     struct br_iteration iteration = {ITERATION(FIRST)};
-    struct br_method method = {METHOD(FIRST)}, apart[4] = {method, method, method, method};
-    struct br_judge_report unjudged = {.unstable = false};
+    struct br_method method = {METHOD(FIRST)}, distinct[4] = {method, method, method, method};
+    struct br_reference_report unchecked = {.unstable = false};
     struct br_resolution finer = {80, 200}, finest = {80, 400};
     for (int i = 0; i < 4; i++)
-        apart[i].tolerance = 1e-3;
+        distinct[i].tolerance = 1e-3;
     const struct br_study asked = {STUDY(FIRST)};
     struct br_study other = asked;
     struct br_scene of = scene;
@@ -170,14 +172,14 @@ TEST(test_functions_are_stated)
     const struct br_study a = {.scene = &scene,
                                .norm = br_norms[0],
                                .method = method,
-                               .judge = &br_judge_mms,
+                               .reference_kind = &br_reference_mms,
                                .n_count = 1,
                                .k_count = 1,
                                .n = grid_n,
                                .steps = grid_steps};
     struct br_study b = a;
-    b.judge = &br_judge_exact;
-    expect_other("a judge without a resolution", &a, &b);
+    b.reference_kind = &br_reference_exact;
+    expect_other("a reference without a resolution", &a, &b);
     b = a;
     b.scene = &of;
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {

@@ -19,7 +19,7 @@ static struct br_study study_of(const struct br_scene *scene, struct br_resoluti
                                 size_t n_count, const size_t *n, size_t k_count,
                                 const size_t *steps)
 {
-    struct br_study s = br_test_study(scene, &br_judge_fine, n_count, n, k_count, steps);
+    struct br_study s = br_test_study(scene, &br_reference_fine, n_count, n, k_count, steps);
     s.reference = reference;
     return s;
 }
@@ -214,7 +214,7 @@ static void add_level(const struct side *cell, const struct side *other, size_t 
 static struct errors direct(const struct br_study *s, struct br_resolution at)
 {
     struct side cell = {.march = br_test_march(s->scene, at.n, at.steps, &s->method)}, other = {0};
-    if (s->judge->nests) {
+    if (s->reference_kind->nests) {
         other.march =
             br_test_march(s->scene, s->reference.n, s->reference.steps, &s->reference_method);
     } else {
@@ -251,7 +251,7 @@ static void check_cell(const struct br_study s[NORMS], size_t c)
         for (enum br_part part = 0; part < BR_PARTS; part++) {
             const double error = e.error[m][part];
             CLOSE(cell->error[part], error,
-                  (error > 0 ? 1e-15 : 1e-16) + (s->judge->nests ? 1e-10 : 1e-9) * error);
+                  (error > 0 ? 1e-15 : 1e-16) + (s->reference_kind->nests ? 1e-10 : 1e-9) * error);
             if (m == 0 && error > 1e-9)
                 CLOSE(cell->worst_time[part], e.time[m][part], 1e-12);
         }
@@ -282,7 +282,7 @@ TEST(test_errors)
         struct br_scene scene = br_test_bundled(rows[i].scene);
         struct br_study s[NORMS] = {study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
                                              rows[i].k_count, rows[i].steps)};
-        s[0].judge = rows[i].reference.n ? &br_judge_fine : &br_judge_exact;
+        s[0].reference_kind = rows[i].reference.n ? &br_reference_fine : &br_reference_exact;
         br_test_all_norms(s);
         MUST(br_study_run(s, 1, 2, NULL, &err));
         for (size_t c = 0; c < br_study_cells(s); c++)
@@ -470,7 +470,7 @@ TEST(test_cells_that_fail)
             MUST(br_study_run(&s, 1, 2, NULL, &err));
             for (size_t c = 0; c < br_study_cells(&s); c++)
                 check_sign(&s.cell[c], rows[i].sign[c], rows[i].load ? "x = 0.125" : "");
-            assert_int_equal(s.judged_by.unstable, strcmp(rows[i].sign, "u") == 0);
+            assert_int_equal(s.reference_report.unstable, strcmp(rows[i].sign, "u") == 0);
         } else {
             REFUSED(br_study_run(&s, 1, 2, NULL, &err), BR_NOT_FINITE, "x = 0.125");
             assert_null(s.cell);
@@ -480,8 +480,8 @@ TEST(test_cells_that_fail)
     }
 }
 
-/* A fine run's own error, by the exact solution, is that of the same cell judged by it. */
-TEST(test_audit)
+/* A fine run's own error, by the exact solution, is that of the same cell against it. */
+TEST(test_reference_check)
 {
     static const char *const names[] = {"example1", "example2", "example3", "example4"};
     const size_t n = 20, steps = 50;
@@ -489,12 +489,12 @@ TEST(test_audit)
         struct br_error err = {0};
         struct br_scene scene = br_test_bundled(names[i]);
         struct br_study fine = study_of(&scene, (struct br_resolution){20, 50}, 1, &n, 1, &steps);
-        fine.auditor = &br_judge_exact;
+        fine.reference_check = &br_reference_exact;
         fine.norm = br_norms[i % 3];
         MUST(br_study_run(&fine, 1, 1, NULL, &err));
-        assert_non_null(fine.auditor); /* it did not give up */
+        assert_non_null(fine.reference_check); /* it did not give up */
         struct br_study exact = study_of(&scene, (struct br_resolution){0}, 1, &n, 1, &steps);
-        exact.judge = &br_judge_exact;
+        exact.reference_kind = &br_reference_exact;
         exact.norm = fine.norm;
         MUST(br_study_run(&exact, 1, 1, NULL, &err));
         for (enum br_part part = 0; part < BR_PARTS; part++)

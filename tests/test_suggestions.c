@@ -60,7 +60,8 @@ static bool lists(const struct list *l, const char *word)
 }
 
 /* The suggestion must be `right`, or as near, where another word is. */
-static void judge(const struct list *all, const char *right, const char *wrong, const char *answer)
+static void check_answer(const struct list *all, const char *right, const char *wrong,
+                         const char *answer)
 {
     static const char mark[] = "did you mean '";
     char found[LONGEST] = "";
@@ -119,7 +120,7 @@ static void try_list(const struct list *all, const struct list *some, say *answe
                 answer_of(frame, wrong, answer, sizeof answer);
                 if (strstr(answer, "'beamrate ")) /* an option of another command */
                     continue;
-                judge(all, word, wrong, answer);
+                check_answer(all, word, wrong, answer);
                 tried++;
             }
     }
@@ -298,7 +299,7 @@ TEST(units)
                 if (strlen(wrong) < 2 || br_unit_read(wrong, &other))
                     continue;
                 say_unit("%s", wrong, answer, sizeof answer);
-                judge(&same, all.word[w], wrong, answer);
+                check_answer(&same, all.word[w], wrong, answer);
                 tried++;
             }
     assert_true(tried >= 300);
@@ -414,7 +415,7 @@ TEST(words_of_orders)
                 misspell(one.word[0], at, how, wrong);
                 strcat(wrong, ":");
                 say_reading("%s/a", wrong, answer, sizeof answer);
-                judge(&prefixes, prefixes.word[i], wrong, answer);
+                check_answer(&prefixes, prefixes.word[i], wrong, answer);
             }
     }
 }
@@ -439,8 +440,8 @@ TEST(commands_and_values_of_options)
     try_place(say_program, "study example1 --format %s", 5, false);
     try_place(say_program, "orders --run x{n} --read a=(b) -n %s=1,2,3", 5, false);
     try_place(say_program, "orders --run x{n} --read a=(b) -k %s=1,2,3", 3, false);
-    struct list judges = {{"exact", "mms"}, 2};
-    try_list(&judges, &judges, say_program, "study example1 --reference %s", true);
+    struct list references = {{"exact", "mms"}, 2};
+    try_list(&references, &references, say_program, "study example1 --reference %s", true);
     char answer[2048];
     say_program("help %s", "%%%%%", answer, sizeof answer);
     struct list commands = read_list(answer);

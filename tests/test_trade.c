@@ -14,8 +14,8 @@
 
 static struct br_named_method pair[2];
 
-/* Trials of a relative error and cost; nothing of them was marched. The judge's own error is added:
- * what it cannot tell is no success. */
+/* Trials of a relative error and cost; nothing of them was marched. The reference's own error is
+ * added: what it cannot tell is no success. */
 static const struct {
     int named;
     double error, seconds, own;
@@ -158,8 +158,8 @@ TEST(test_errors_are_a_study_s)
         request.norm = norm[m];
         MUST(br_trials_run(trial, COUNT, &request, &err));
         for (size_t i = 0; i < COUNT; i++) {
-            struct br_study study =
-                br_test_study(&scene, &br_judge_exact, 1, &trial[i].at.n, 1, &trial[i].at.steps);
+            struct br_study study = br_test_study(&scene, &br_reference_exact, 1, &trial[i].at.n, 1,
+                                                  &trial[i].at.steps);
             study.norm = norm[m];
             study.method = br_trial_method(&trial[i]);
             MUST(br_study_run(&study, 1, 1, NULL, &err));
@@ -323,35 +323,36 @@ TEST(test_forecast)
                                                           .tolerances = 2});
     double held = 0, dearest = 0;
     t->request.threads = 1;
-    MUST(br_trade_foresee(t, &err));
+    t->request.pace = 1; /* of this machine, it may change from one forecast to the next */
+    MUST(br_trade_estimate(t, &err));
     assert_int_equal(t->forecast.planned, t->count);
     assert_int_equal(t->forecast.left, 0);
     for (size_t i = 0; i + 2 < 4 * 3; i += 3) /* two methods on two meshes */
-        assert_true(t->trial[i + 2].foreseen > 2 * t->trial[i].foreseen);
+        assert_true(t->trial[i + 2].estimated > 2 * t->trial[i].estimated);
     t->request.seconds = 0.3 * t->forecast.seconds;
-    MUST(br_trade_foresee(t, &err));
+    MUST(br_trade_estimate(t, &err));
     assert_true(t->forecast.left > 0 && t->forecast.planned > 1);
     assert_int_equal(t->forecast.left + t->forecast.planned, t->count);
     for (size_t i = 0; i < t->count; i++)
         if (t->trial[i].end != BR_TRIAL_LEFT) {
-            held += t->trial[i].foreseen;
-            dearest = fmax(dearest, t->trial[i].foreseen);
+            held += t->trial[i].estimated;
+            dearest = fmax(dearest, t->trial[i].estimated);
         }
     assert_true(held <= t->request.seconds);
     MUST(br_trade_run(t, &err));
     assert_int_equal(br_trade_tally(t, BR_TRIAL_LEFT), t->forecast.left);
     for (size_t i = 0; i < t->count; i++) {
         const bool left = t->trial[i].end == BR_TRIAL_LEFT;
-        assert_true(!left || t->trial[i].foreseen >= dearest);
+        assert_true(!left || t->trial[i].estimated >= dearest);
         assert_true(isnan(br_trial_bound(&t->trial[i])) == left);
     }
     drop(t);
     br_scene_clear(&scene);
 }
 
-/* A judge's work is forecast with the first trial that needs it, and passes to the next one when
- * that trial is left out. */
-TEST(test_judge_is_forecast)
+/* A reference's work is forecast with the first trial that needs it, and passes to the next one
+ * when that trial is left out. */
+TEST(test_reference_is_forecast)
 {
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
@@ -359,14 +360,15 @@ TEST(test_judge_is_forecast)
                                {.named = &pair[1], .at = {10, 100000}}};
     struct br_trial_request request = br_trial_request_default(&scene);
     struct br_trial_forecast forecast;
-    MUST(br_trials_foresee(trial, 2, &request, &forecast, &err));
-    const double beside = trial[1].foreseen;
-    assert_true(trial[0].foreseen > 1.01 * beside);
-    request.seconds = 0.5 * forecast.seconds; /* the pace is measured anew */
-    MUST(br_trials_foresee(trial, 2, &request, &forecast, &err));
+    request.pace = 1;
+    MUST(br_trials_estimate(trial, 2, &request, &forecast, &err));
+    const double beside = trial[1].estimated;
+    assert_true(trial[0].estimated > 1.01 * beside);
+    request.seconds = 0.5 * forecast.seconds;
+    MUST(br_trials_estimate(trial, 2, &request, &forecast, &err));
     assert_int_equal(trial[0].end, BR_TRIAL_LEFT);
-    CLOSE(trial[1].foreseen, trial[0].foreseen, 1e-12 * beside);
-    CLOSE(forecast.seconds, trial[1].foreseen, 1e-12 * forecast.seconds);
+    CLOSE(trial[1].estimated, trial[0].estimated, 1e-12 * beside);
+    CLOSE(forecast.seconds, trial[1].estimated, 1e-12 * forecast.seconds);
     br_scene_clear(&scene);
 }
 

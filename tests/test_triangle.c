@@ -25,7 +25,7 @@ static int make(void **state)
     static struct made made;
     struct br_error err = {0};
     made.scene = br_test_bundled("example2");
-    made.study = br_test_study(&made.scene, &br_judge_exact, 3, n, 3, steps);
+    made.study = br_test_study(&made.scene, &br_reference_exact, 3, n, 3, steps);
     MUST(br_study_run(&made.study, 1, 1, NULL, &err));
     *state = &made;
     return 0;

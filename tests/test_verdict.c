@@ -44,16 +44,16 @@ static void make_power(struct made *m, double order, size_t count)
     make(m, error, count);
 }
 
-static void judge(struct br_case *c)
+static void find_verdict(struct br_case *c)
 {
     struct br_error err = {0};
     MUST(br_case_observe(c, BR_VERIFY_LEAST_POINTS, &err));
-    br_case_judge(c);
+    br_case_decide(c);
 }
 
 static void reach(struct made *m, enum br_verdict expected, const char *reason)
 {
-    judge(&m->it);
+    find_verdict(&m->it);
     if (m->it.verdict != expected || !strstr(m->it.reason, reason))
         fail_msg("%s because '%s', expected %s because '%s'", br_verdict_names[m->it.verdict],
                  m->it.reason, br_verdict_names[expected], reason);
@@ -106,7 +106,7 @@ TEST(test_two_powers)
         m.it.expected.highest = 4;
         for (size_t j = 1; j < 5; j++)
             m.point[j].error = m.point[j - 1].error * pow(2, -rows[i].rate[j - 1]);
-        judge(&m.it);
+        find_verdict(&m.it);
         if ((m.it.verdict == BR_PASS) != rows[i].pass)
             fail_msg("row %zu: %s because '%s'", i, br_verdict_names[m.it.verdict], m.it.reason);
         if (i == 2 && !strstr(m.it.note, "row to row, 3.70, 3.10, 2.50, 2.10, fall from 4 to 2"))
@@ -169,7 +169,7 @@ TEST(test_many_points)
         make_power(&m, 1, count);
         for (size_t i = 0; i < count; i++) /* the last local order is 0.45 */
             m.point[i].error += 1.3 * m.point[count - 1].error;
-        judge(&m.it);
+        find_verdict(&m.it);
         assert_int_not_equal(m.it.verdict, BR_PASS);
     }
     make_power(&m, 1, 8);
@@ -233,8 +233,8 @@ TEST(test_any_unit)
         make(&b, error[l], 8);
         for (size_t i = 0; i < 8; i++)
             b.point[i].error *= 1e-9;
-        judge(&a.it);
-        judge(&b.it);
+        find_verdict(&a.it);
+        find_verdict(&b.it);
         assert_int_equal(a.it.verdict, b.it.verdict);
         assert_true(a.it.law == b.it.law);
         keep_words(a.it.reason), keep_words(b.it.reason);
@@ -281,7 +281,7 @@ TEST(test_notes)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct made m;
         make(&m, rows[i].error, 6);
-        judge(&m.it);
+        find_verdict(&m.it);
         char note[BR_CASE_NOTE];
         if (!strstr(br_case_note(&m.it, note), rows[i].note))
             fail_msg("found '%s', expected '%s'", note, rows[i].note);
@@ -302,7 +302,7 @@ TEST(test_turning)
     reach(&m, BR_FAIL, "on they grow");
     error[5] = 3; /* it does not grow by the same law */
     make(&m, error, 6);
-    judge(&m.it);
+    find_verdict(&m.it);
     assert_null(strstr(m.it.reason, "on they grow"));
 }
 
@@ -404,7 +404,7 @@ TEST(test_coverage)
                 normal += br_test_uniform(&random, 0, 1);
             m.point[i].error *= exp(0.05 * normal);
         }
-        judge(&m.it);
+        find_verdict(&m.it);
         within += m.it.order.low <= 1 && m.it.order.high >= 1;
     }
     if (!(within >= 0.93 * trials))

@@ -17,7 +17,7 @@
 #include "study/scene/file.h"
 #include "support.h"
 
-/* ---- marches and their judges ---- */
+/* ---- marches and what checks them ---- */
 
 struct watched {
     struct br_scene scene;
@@ -41,7 +41,7 @@ static struct br_method method_of(const struct br_time_scheme *scheme, const cha
     return m;
 }
 
-/* What the judges are told, where that is not the truth. */
+/* What the references are told, where that is not the truth. */
 struct told {
     const struct br_scene *certificate, *energy;
     const struct br_method *method;
@@ -92,7 +92,7 @@ static void finish(struct watched *w)
     *w = (struct watched){0};
 }
 
-/* Both judges pass all steps; clears it. */
+/* Both checks pass all steps; clears it. */
 static void passes(struct watched *w, const char *name, size_t n, size_t steps)
 {
     const struct br_method *m = &w->method;
@@ -333,7 +333,7 @@ static struct br_scene spoilt(const struct br_scene *scene, size_t offset, doubl
 
 /* A contact that the march keeps open while the rod is in the obstacle: all stages are on one
  * branch, and only the law at the end of a step is broken. */
-TEST(test_kept_branch)
+TEST(test_active_branch)
 {
     for (size_t i = 0; br_time_schemes[i]; i++) {
         struct watched w = {.scene = br_test_bundled("example2")};

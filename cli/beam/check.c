@@ -72,16 +72,16 @@ static enum br_status check_accepted(const struct scenes *s, struct br_error *er
 static enum br_status begin(void *self, struct br_error *err)
 {
     const struct scenes *s = self;
-    struct br_foreseen work = {.together = true};
+    struct br_cost_estimate work = {.together = true};
     if (check_accepted(s, err))
         return err->status;
     for (const struct br_scene_check *c = s->check; c < s->check + s->count; c++) {
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
             const size_t cells = c->verify->study[kind].count;
-            const size_t heads = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
-            for (size_t h = 0; h < heads; h++) {
+            const size_t cases = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
+            for (size_t h = 0; h < cases; h++) {
                 const struct br_study study = br_check_study(c, (enum br_verify_kind)kind, h);
-                br_foreseen_add_study(&work, &study);
+                br_cost_estimate_add_study(&work, &study);
             }
         }
     }

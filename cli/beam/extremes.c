@@ -24,7 +24,7 @@ struct part {
     struct br_error verdict;
 };
 
-struct run {
+struct extremes_run {
     const struct br_options *options; /* borrowed */
     struct br_session *session;       /* borrowed */
     struct part part[MOST_PARTS];     /* parts, in registry order */
@@ -78,7 +78,7 @@ static const char *experiment_name(size_t row)
 static const struct br_words experiments = {experiment_name, experiment_title, NULL};
 
 /* Refuses an option that no chosen experiment accepts. */
-static enum br_status check_options(const struct run *r, struct br_error *err)
+static enum br_status check_options(const struct extremes_run *r, struct br_error *err)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
         bool wanted = !br_option_given(r->options, own_options[i].id);
@@ -92,7 +92,8 @@ static enum br_status check_options(const struct run *r, struct br_error *err)
 }
 
 /* A word that is no part is a scene. */
-static enum br_status read_scene_word(struct run *r, const char *word, struct br_error *err)
+static enum br_status read_scene_word(struct extremes_run *r, const char *word,
+                                      struct br_error *err)
 {
     char path[1024];
     size_t row;
@@ -111,7 +112,7 @@ static enum br_status read_scene_word(struct run *r, const char *word, struct br
 }
 
 /* Chooses the named experiments, in the registry's order; without names, all. */
-static enum br_status choose_parts(struct run *r, struct br_error *err)
+static enum br_status choose_parts(struct extremes_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     size_t named = 0;
@@ -138,7 +139,7 @@ static enum br_status choose_parts(struct run *r, struct br_error *err)
 }
 
 /* Opens the given scene for a part, or the part's own ones, and reads the time steps. */
-static enum br_status open_scenes(struct run *r, struct part *p, struct br_error *err)
+static enum br_status open_scenes(struct extremes_run *r, struct part *p, struct br_error *err)
 {
     const char *const *usual = p->experiment->scene;
     for (; p->scenes < BR_EXTREMES_SCENES && usual[p->scenes]; p->scenes++) {
@@ -155,7 +156,7 @@ static enum br_status open_scenes(struct run *r, struct part *p, struct br_error
                      : BR_OK;
 }
 
-static enum br_status read_request(struct run *r, struct br_error *err)
+static enum br_status read_request(struct extremes_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const char *methods = br_option_text(o, BR_OPT_METHODS);
@@ -179,7 +180,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
 
 /* ---- computing and writing ---- */
 
-static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
+static enum br_status run_part(struct extremes_run *r, size_t i, struct br_error *err)
 {
     struct part *p = &r->part[i];
     const struct br_extremes_experiment *experiment = p->experiment;
@@ -203,7 +204,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     return br_progress_result(status, err);
 }
 
-static enum br_status run_parts(struct run *r, struct br_error *err)
+static enum br_status run_parts(struct extremes_run *r, struct br_error *err)
 {
     enum br_status status = br_session_report(r->session, r->parts, err);
     for (size_t i = 0; i < r->parts && !status; i++)
@@ -212,7 +213,7 @@ static enum br_status run_parts(struct run *r, struct br_error *err)
 }
 
 /* The first verdict that fails. */
-static enum br_status judge(const struct run *r, struct br_error *err)
+static enum br_status find_verdicts(const struct extremes_run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->parts; i++)
         if (r->part[i].verdict.status) {
@@ -222,7 +223,7 @@ static enum br_status judge(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static void close_scenes(struct run *r)
+static void close_scenes(struct extremes_run *r)
 {
     for (size_t i = 0; i < r->parts; i++) {
         for (size_t j = 0; j < BR_EXTREMES_SCENES; j++)
@@ -234,9 +235,10 @@ static void close_scenes(struct run *r)
 static enum br_status run(const struct br_options *options, struct br_session *session,
                           struct br_error *err)
 {
-    struct run r = {.options = options, .session = session};
+    struct extremes_run r = {.options = options, .session = session};
     const bool failed = read_request(&r, err) || br_session_open(r.session, err) ||
-                        run_parts(&r, err) || br_session_finish(r.session, err) || judge(&r, err);
+                        run_parts(&r, err) || br_session_finish(r.session, err) ||
+                        find_verdicts(&r, err);
     close_scenes(&r);
     return failed ? err->status : BR_OK;
 }

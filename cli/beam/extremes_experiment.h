@@ -27,8 +27,8 @@ struct br_extremes_experiment {
     unsigned long long accepts;            /* BR_ACCEPTS */
     const char *scene[BR_EXTREMES_SCENES]; /* bundled ones, where the user names none */
     /* Computes, begins the report (its name is the experiment's) and puts everything into it but
-     * the provenance, draws, and judges: a wrong result is a verdict, not a failure. Fails with
-     * BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
+     * the provenance, draws, and gives verdicts: a wrong result is a verdict, not a failure. Fails
+     * with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
     enum br_status (*run)(const struct br_extremes_job *job, const struct br_extremes_output *to,
                           struct br_error *err);
 };

@@ -11,7 +11,7 @@
 #include "study/paper/paper.h"
 #include "tables/beam/reports.h"
 
-struct run {
+struct figures_run {
     struct br_session *session; /* borrowed */
     struct br_paper paper;
 };
@@ -31,7 +31,7 @@ static void put_caption(struct br_document *d, const struct br_paper_figure *f,
         br_put_note(d, "%s", f->beside);
 }
 
-static enum br_status write_all(struct run *r, struct br_error *err)
+static enum br_status write_all(struct figures_run *r, struct br_error *err)
 {
     struct br_provenance provenance;
     br_provenance_fill(&provenance, r->session->threads);
@@ -54,7 +54,7 @@ static enum br_status run(const struct br_options *options, struct br_session *s
                           struct br_error *err)
 {
     (void)options;
-    struct run r = {.session = session};
+    struct figures_run r = {.session = session};
     struct br_paper_request request = br_paper_request_default();
     const bool writes = r.session->writes;
     request.threads = r.session->threads;

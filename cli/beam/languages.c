@@ -327,7 +327,7 @@ static void write_all(FILE *out, const struct language *l, const char *scenes)
 
 /* Escapes the characters that roff, or Markdown, would take as markup. */
 static const struct br_quoting for_roff = {
-    .around = "", .start = ".'", .guard = "\\&", .stead = {{'-', "\\-"}, {'\\', "\\e"}}};
+    .around = "", .start = ".'", .prefix = "\\&", .stead = {{'-', "\\-"}, {'\\', "\\e"}}};
 static const struct br_quoting for_page = {
     .around = "", .stead = {{'|', "\\|"}, {'<', "\\<"}, {'*', "\\*"}, {'_', "\\_"}}};
 static const struct br_quoting for_zsh_words = {.around = "", .stead = {{':', "\\:"}}};

@@ -9,16 +9,16 @@
 /* ---- registries ---- */
 
 BR_WORDS(norm, br_norms)
-BR_WORDS(judge, br_judges)
+BR_WORDS(reference, br_references)
 
 /* The name with its arguments: fine:N,K. */
-static const char *judge_syntax(size_t row)
+static const char *reference_syntax(size_t row)
 {
-    return judge_name(row) ? br_judges[row]->syntax : NULL;
+    return reference_name(row) ? br_references[row]->syntax : NULL;
 }
 
 const struct br_words br_norm_words = {norm_name, norm_title, NULL};
-const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
+const struct br_words br_reference_words = {reference_syntax, reference_title, NULL};
 
 size_t br_registries(struct br_registry list[BR_REGISTRIES])
 {
@@ -29,7 +29,7 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
             list[count++] = (struct br_registry){f->name, f->help, f->words};
     }
     list[count++] =
-        (struct br_registry){"reference", "what errors are measured against", &br_judge_words};
+        (struct br_registry){"reference", "what errors are measured against", &br_reference_words};
     list[count++] = (struct br_registry){"norm", "norms of the error", &br_norm_words};
     list[count++] = (struct br_registry){"format", "formats of the results", &br_format_words};
     return count;
@@ -38,10 +38,6 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
 /* ---- options ---- */
 
 _Static_assert(BR_OPT_METHOD + BR_METHOD_FIELDS == BR_OPTIONS, "an option for each field");
-
-enum {
-    MARCHES = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN
-}; /* who takes the method's options */
 
 #define WHOLE(low, high) BR_RANGE(low, high, true)
 #define BETWEEN(low, high) BR_RANGE(low, high, false)
@@ -69,7 +65,7 @@ static const struct br_option rows[] = {
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
      "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
-     .words = &br_judge_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
+     .words = &br_reference_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
      .more =
          "exact is the default; for a scene that was manufactured from a solution, it is mms. "
          "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is "
@@ -167,7 +163,7 @@ size_t br_beam_add_options(const struct br_command *command, struct br_option ro
                            size_t count)
 {
     count = br_options_add(rows, ROWS, command, row, count);
-    for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
+    for (size_t i = 0; i < BR_METHOD_FIELDS && BR_FOR_MARCHES & command->bit; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         if (!f->argument)
             continue;
@@ -177,7 +173,7 @@ size_t br_beam_add_options(const struct br_command *command, struct br_option ro
                                           .help = f->help,
                                           .kind = BR_TAKES_METHOD,
                                           .words = f->words,
-                                          .commands = MARCHES,
+                                          .commands = BR_FOR_MARCHES,
                                           .more = f->more};
     }
     return count;

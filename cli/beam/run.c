@@ -9,7 +9,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "plots/beam/pictures.h"
-#include "study/foresee/prediction.h"
+#include "study/estimate/prediction.h"
 #include "study/ranks/ranks.h"
 #include "tables/beam/fields_file.h"
 #include "tables/beam/reports.h"
@@ -19,7 +19,7 @@ enum { HISTORY, FIELDS_CSV, FIELDS_XDMF, FILES };
 enum { PICTURE_ROWS = 2000 };
 static const char *const file_names[] = {"history.csv", "fields.csv", "fields.xdmf"};
 
-struct run {
+struct scene_run {
     const struct br_options *options; /* borrowed */
     struct br_session *session;       /* borrowed */
     const char *out, *json;           /* paths of these options; NULL: not given */
@@ -38,7 +38,7 @@ struct run {
 
 /* ---- the files of --out ---- */
 
-static enum br_status open_results(struct run *r, struct br_error *err)
+static enum br_status open_results(struct scene_run *r, struct br_error *err)
 {
     enum br_status status = br_session_open(r->session, err);
     for (int i = 0; i < FILES && !status; i++)
@@ -57,7 +57,7 @@ static enum br_status open_results(struct run *r, struct br_error *err)
 }
 
 /* Fails where a write to one of the files did. */
-static enum br_status check_files(const struct run *r, struct br_error *err)
+static enum br_status check_files(const struct scene_run *r, struct br_error *err)
 {
     for (int i = 0; i < FILES; i++)
         if (ferror(r->file[i]))
@@ -68,7 +68,7 @@ static enum br_status check_files(const struct run *r, struct br_error *err)
 /* A quantity that is not modelled is an empty field, not a zero. */
 static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
 {
-    struct run *r = self;
+    struct scene_run *r = self;
     struct br_history_row known = *row;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (!r->plan.marched.field[kind].modelled)
@@ -84,7 +84,7 @@ static enum br_status write_row(void *self, const struct br_history_row *row, st
 static enum br_status write_sample(void *self, const struct br_march *march,
                                    const struct br_history_row *row, struct br_error *err)
 {
-    struct run *r = self;
+    struct scene_run *r = self;
     br_fields_add(&r->fields, march, row);
     return check_files(r, err);
 }
@@ -93,7 +93,7 @@ static enum br_status write_sample(void *self, const struct br_march *march,
 static enum br_status keep_row(void *self, const struct br_march *march,
                                const struct br_history_row *row, struct br_error *err)
 {
-    struct run *r = self;
+    struct scene_run *r = self;
     if (row->step % r->picture_stride && row->step != r->plan.request.steps)
         return BR_OK;
     struct br_history_row whole = *row;
@@ -102,7 +102,7 @@ static enum br_status keep_row(void *self, const struct br_march *march,
 }
 
 /* stopped: why the march did not reach T; NULL: it did. */
-static enum br_status close_results(struct run *r, const char *stopped, struct br_error *err)
+static enum br_status close_results(struct scene_run *r, const char *stopped, struct br_error *err)
 {
     enum br_status status = BR_OK;
     if (r->file[HISTORY] && stopped)
@@ -117,7 +117,7 @@ static enum br_status close_results(struct run *r, const char *stopped, struct b
 }
 
 /* Results are put in place even if the march stopped early. */
-static enum br_status write_results(struct run *r, const char *stopped, struct br_error *err)
+static enum br_status write_results(struct scene_run *r, const char *stopped, struct br_error *err)
 {
     static const struct br_document_format *const formats[] = {&br_document_text, &br_document_json,
                                                                &br_document_html, NULL};
@@ -129,7 +129,7 @@ static enum br_status write_results(struct run *r, const char *stopped, struct b
 /* ---- before the march ---- */
 
 /* One output must not replace another, or a scene. */
-static enum br_status check_places(const struct run *r, struct br_error *err)
+static enum br_status check_places(const struct scene_run *r, struct br_error *err)
 {
     if (br_whole_file_meets(&r->summary, r->plan.opened.path))
         return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
@@ -141,7 +141,7 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status open_files(struct run *r, struct br_error *err)
+static enum br_status open_files(struct scene_run *r, struct br_error *err)
 {
     r->provenance = br_provenance_of(&r->plan.opened, 1);
     r->recorder = br_history_recorder(&r->record, r->plan.request.n);
@@ -152,7 +152,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-static enum br_status open_scene(struct run *r, struct br_error *err)
+static enum br_status open_scene(struct scene_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const bool failed = br_opened_scene_read(&r->plan.opened, r->session, o->word[0], err) ||
@@ -169,28 +169,28 @@ static struct br_planned_march planned(const struct br_run_plan *p)
 }
 
 /* Finds the warnings and the prediction before the march. */
-static enum br_status predict(struct run *r, struct br_error *err)
+static enum br_status predict(struct scene_run *r, struct br_error *err)
 {
     struct br_planned_march march = planned(&r->plan);
     march.prediction = &r->prediction;
     return br_check_ahead(&march, &r->warnings, err);
 }
 
-static enum br_status prepare(struct run *r, struct br_error *err)
+static enum br_status prepare(struct scene_run *r, struct br_error *err)
 {
     if (open_scene(r, err) || predict(r, err) || open_files(r, err))
         return err->status;
-    struct br_foreseen work = {.alone = true};
+    struct br_cost_estimate work = {.alone = true};
     const struct br_planned_march one = planned(&r->plan);
     br_print_warnings("", &r->warnings);
-    br_foreseen_add_march(&work, &one);
+    br_cost_estimate_add_march(&work, &one);
     br_session_announce(r->session, &work);
     return BR_OK;
 }
 
 /* ---- the march and its report ---- */
 
-static enum br_status march(struct run *r, struct br_error *err)
+static enum br_status march(struct scene_run *r, struct br_error *err)
 {
     struct br_history_observer output[2];
     size_t outputs = 0;
@@ -210,7 +210,7 @@ static enum br_status march(struct run *r, struct br_error *err)
 
 /* A summary on standard output replaces the report there. It is printed before files are written,
  * so that a full disk cannot hide the results. */
-static enum br_status write_all(struct run *r, double start, struct br_error *err)
+static enum br_status write_all(struct scene_run *r, double start, struct br_error *err)
 {
     const struct br_error *failure = &r->report.failure;
     const char *stopped = failure->status ? failure->message : NULL;
@@ -236,7 +236,7 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
 }
 
 /* Fails if the march stopped or a step exceeds its certificate's limits. Results are kept. */
-static enum br_status conclude(const struct run *r, struct br_error *err)
+static enum br_status conclude(const struct scene_run *r, struct br_error *err)
 {
     const struct br_run_report *p = &r->report;
     if (p->failure.status)
@@ -252,11 +252,11 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
 static enum br_status run(const struct br_options *options, struct br_session *session,
                           struct br_error *err)
 {
-    static struct run r;
+    static struct scene_run r;
     const double start = br_seconds();
     if (!br_ranks_first())
         return BR_OK; /* one rank does a single march */
-    r = (struct run){.options = options,
+    r = (struct scene_run){.options = options,
                      .session = session,
                      .out = br_option_text(options, BR_OPT_OUT),
                      .json = br_option_text(options, BR_OPT_JSON)};

@@ -58,13 +58,13 @@ char *br_session_scene(const struct br_session *s, const char *name)
 /* A shorter forecast is not measured, and not printed, s. */
 static const double worth_measuring = 1, worth_printing = 3;
 
-void br_session_announce(const struct br_session *s, const struct br_foreseen *w)
+void br_session_announce(const struct br_session *s, const struct br_cost_estimate *w)
 {
-    struct br_foreseen here = *w;
-    if (s->quiet || !(br_foreseen_seconds(w, br_threads(s->threads)) >= worth_measuring))
+    struct br_cost_estimate here = *w;
+    if (s->quiet || !(br_cost_estimate_seconds(w, br_threads(s->threads)) >= worth_measuring))
         return;
-    br_foreseen_measure(&here);
-    const double seconds = br_foreseen_seconds(&here, br_threads(s->threads));
+    br_cost_estimate_measure(&here);
+    const double seconds = br_cost_estimate_seconds(&here, br_threads(s->threads));
     if (!(seconds >= worth_printing))
         return;
     fprintf(stderr, "%zu march%s, about %.2g s, %.2g GB", w->marches, w->marches == 1 ? "" : "es",

@@ -10,10 +10,10 @@
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 
-/* Study h of the heads in norm m. */
+/* Study h of the cases in norm m. */
 static struct br_study *study_of(const struct br_studies *r, size_t h, size_t m)
 {
-    return &r->study[m * r->heads + h];
+    return &r->study[m * r->cases + h];
 }
 
 /* ---- the grid ---- */
@@ -29,7 +29,7 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
         .norm = q->norm[0],
         .method = q->method,
         .reference_method = q->method,
-        .judge = q->judge ? q->judge : br_judge_best(scene),
+        .reference_kind = q->reference_kind ? q->reference_kind : br_reference_best(scene),
         .n = q->n,
         .n_count = q->n_count,
     };
@@ -42,9 +42,9 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
     br_sort_counts(q->n, q->n_count);
     br_sort_counts(w->steps, study->k_count);
     study->steps = w->steps;
-    if (!study->judge->nests)
+    if (!study->reference_kind->nests)
         return BR_OK;
-    study->auditor = br_judge_best(scene); /* it measures the fine run's own error */
+    study->reference_check = br_reference_best(scene); /* it measures the fine run's own error */
     return br_study_request_fine(q, scene, &study->reference, err);
 }
 
@@ -52,14 +52,14 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
  * the other norms. */
 static void spread_study(struct br_studies *r, size_t job)
 {
-    if (r->heads > r->jobs) {
+    if (r->cases > r->jobs) {
         struct br_study *exact = study_of(r, r->jobs + job, 0);
         *exact = *study_of(r, job, 0);
-        exact->judge = &br_judge_exact;
-        exact->auditor = NULL;
+        exact->reference_kind = &br_reference_exact;
+        exact->reference_check = NULL;
         exact->reference = (struct br_resolution){0};
     }
-    for (size_t h = job; h < r->heads; h += r->jobs)
+    for (size_t h = job; h < r->cases; h += r->jobs)
         for (size_t m = 1; m < r->request->norms; m++) {
             struct br_study *study = study_of(r, h, m);
             *study = *study_of(r, h, m - 1);
@@ -97,8 +97,8 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
         .name = w->name[m],
         .caption = job->caption ? job->caption : scene->title,
         .study = study_of(r, i, m),
-        .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
-        .fitted = study_of(r, r->heads - r->jobs + i, m),
+        .exact = r->cases > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
+        .fitted = study_of(r, r->cases - r->jobs + i, m),
     };
     return job->printed && norm->printed ? set_printed(job->printed, &w->report[m], err) : BR_OK;
 }
@@ -123,9 +123,9 @@ enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_jo
 {
     const struct br_study_request *q = r->request;
     bool axial = false;
-    r->heads = with_exact && q->judge && q->judge->nests ? 2 * r->jobs : r->jobs;
+    r->cases = with_exact && q->reference_kind && q->reference_kind->nests ? 2 * r->jobs : r->jobs;
     r->work = br_allocate(r->jobs, sizeof *r->work);
-    r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
+    r->study = br_allocate(r->cases * q->norms, sizeof *r->study);
     if (!r->work || !r->study)
         return br_no_memory(err, "the studies");
     for (size_t i = 0; i < r->jobs; i++) {
@@ -140,12 +140,12 @@ enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_jo
 
 void br_studies_clear(struct br_studies *r)
 {
-    for (size_t i = 0; r->study && i < r->heads * r->request->norms; i++)
+    for (size_t i = 0; r->study && i < r->cases * r->request->norms; i++)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
         for (size_t m = 0; m < r->request->norms; m++)
             br_report_clear(&r->work[i].report[m]);
-        br_apart_clear(&r->work[i].apart);
+        br_grid_differences_clear(&r->work[i].compared);
         br_opened_scene_clear(&r->work[i].opened);
         free(r->work[i].steps);
     }
@@ -155,15 +155,15 @@ void br_studies_clear(struct br_studies *r)
 
 /* ---- before the marches ---- */
 
-void br_studies_foresee(const struct br_studies *r, struct br_foreseen *work)
+void br_studies_estimate_cost(const struct br_studies *r, struct br_cost_estimate *work)
 {
-    for (size_t h = 0; h < r->heads; h++)
-        br_foreseen_add_study(work, study_of(r, h, 0));
+    for (size_t h = 0; h < r->cases; h++)
+        br_cost_estimate_add_study(work, study_of(r, h, 0));
 }
 
 enum br_status br_studies_check_memory(const struct br_studies *r, struct br_error *err)
 {
-    return br_ranks_size() == 1 ? br_fit_together(r->study, r->heads, br_memory_available(), err)
+    return br_ranks_size() == 1 ? br_fit_together(r->study, r->cases, br_memory_available(), err)
                                 : BR_OK;
 }
 
@@ -176,15 +176,16 @@ enum br_status br_studies_compute(struct br_studies *r, struct br_error *err)
     const size_t norms = r->request->norms;
     struct br_study_work *const end = r->work + r->jobs;
     const struct br_observer *observer = br_progress_start("marching", r->session->quiet);
-    enum br_status status = br_study_run(r->study, r->heads, threads, observer, err);
+    enum br_status status = br_study_run(r->study, r->cases, threads, observer, err);
     for (struct br_study_work *w = r->work; w < end && !status; w++)
-        status = br_apart_meshes(&w->apart, w->report, norms, threads, observer, err);
+        status = br_grid_differences_meshes(&w->compared, w->report, norms, threads, observer, err);
     for (struct br_study_work *w = r->work; w < end; w++)
         for (size_t m = 0; m < norms && !status; m++)
             status = br_report_finish(&w->report[m], threads, err);
     for (struct br_study_work *w = r->work; w < end && !status; w++)
         for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
-            status = br_apart_settle(&w->apart, w->report, norms, axis, threads, observer, err);
+            status = br_grid_differences_settle(&w->compared, w->report, norms, axis, threads,
+                                                observer, err);
     br_progress_end();
     for (struct br_study_work *w = r->work; w < end; w++)
         for (size_t m = 0; m < norms; m++)
@@ -197,7 +198,7 @@ enum br_status br_studies_check_cells(const struct br_studies *r, struct br_erro
     size_t failed = 0, cells = 0;
     const struct br_cell *first = NULL;
     for (size_t job = 0; job < r->jobs; job++)
-        for (size_t h = job; h < r->heads; h += r->jobs) {
+        for (size_t h = job; h < r->cases; h += r->jobs) {
             const struct br_study *s = study_of(r, h, 0);
             for (size_t c = 0; c < br_study_cells(s); c++, cells++) {
                 const bool bad = s->cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED;

@@ -6,7 +6,7 @@
 #include "cli/beam/session.h"
 #include "cli/beam/study_request.h"
 #include "reference/printed.h"
-#include "study/fit/apart.h"
+#include "study/fit/grid_differences.h"
 
 /* One study: a scene, and the printed table to compare it with, if any. */
 struct br_study_job {
@@ -20,7 +20,7 @@ struct br_study_job {
 struct br_study_work {
     struct br_opened_scene opened;
     size_t *steps; /* numbers of steps of the grid, ascending; owned */
-    struct br_apart apart;
+    struct br_grid_differences compared;
     char name[BR_MOST_NORMS][512];          /* of the reports */
     struct br_report report[BR_MOST_NORMS]; /* request.norms of them */
 };
@@ -30,9 +30,9 @@ struct br_studies {
     struct br_session *session;             /* borrowed */
     size_t jobs;
     struct br_study_work *work; /* jobs */
-    size_t heads;               /* jobs, or 2 * jobs: each against its reference, then each against
+    size_t cases;               /* jobs, or 2 * jobs: each against its reference, then each against
                                    the exact solution */
-    struct br_study *study;     /* heads * norms: those in the first norm come first */
+    struct br_study *study;     /* cases * norms: those in the first norm come first */
 };
 
 /* Sets up the jobs; request, session and jobs are set before. with_exact: a fine reference is
@@ -42,7 +42,7 @@ enum br_status br_studies_prepare(struct br_studies *studies, const struct br_st
                                   bool with_exact, struct br_error *err);
 void br_studies_clear(struct br_studies *studies);
 
-void br_studies_foresee(const struct br_studies *studies, struct br_foreseen *work);
+void br_studies_estimate_cost(const struct br_studies *studies, struct br_cost_estimate *work);
 
 /* Checks the memory of the studies, which march at once. */
 enum br_status br_studies_check_memory(const struct br_studies *studies, struct br_error *err);

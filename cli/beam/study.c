@@ -4,7 +4,7 @@
 #include "cli/beam/studies.h"
 #include "cli/command.h"
 #include "plots/beam/pictures.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "tables/beam/reports.h"
 
 static enum br_status write_all(struct br_studies *r, struct br_error *err)
@@ -34,10 +34,10 @@ static enum br_status run_jobs(const struct br_study_request *request, struct br
 {
     struct br_studies r = {request, session, .jobs = jobs};
     const bool writes = session->writes;
-    struct br_foreseen work = {.together = true};
+    struct br_cost_estimate work = {.together = true};
     bool failed = br_studies_prepare(&r, job, with_exact, err);
     if (!failed) {
-        br_studies_foresee(&r, &work);
+        br_studies_estimate_cost(&r, &work);
         br_session_announce(session, &work);
         failed = br_studies_check_memory(&r, err) || br_session_open(session, err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) ||

@@ -25,7 +25,7 @@ static enum br_status read_fine(const char *text, const char *arguments, struct 
     return BR_OK;
 }
 
-/* Reads a judge's name, and for a fine run its arguments. */
+/* Reads a reference's name, and for a fine run its arguments. */
 static enum br_status read_reference(const char *text, struct br_study_request *r,
                                      struct br_error *err)
 {
@@ -33,15 +33,15 @@ static enum br_status read_reference(const char *text, struct br_study_request *
     char name[32], all[256], suggestion[BR_SUGGESTION];
     const size_t length = strcspn(text, ":");
     size_t count = 0;
-    for (; br_judges[count] && count < 8; count++)
-        names[count] = br_judges[count]->name;
+    for (; br_references[count] && count < 8; count++)
+        names[count] = br_references[count]->name;
     snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), text);
-    r->judge = br_judge_find(name);
-    if (!r->judge || (text[length] == ':' && !r->judge->nests))
+    r->reference_kind = br_reference_find(name);
+    if (!r->reference_kind || (text[length] == ':' && !r->reference_kind->nests))
         return br_fail(err, BR_BAD_INPUT, "--reference: found '%s', expected one of: %s%s", text,
-                       br_words_join(&br_judge_words, ", ", all, sizeof all),
-                       r->judge ? "" : br_suggestion(name, names, count, suggestion));
-    if (!r->judge->nests)
+                       br_words_join(&br_reference_words, ", ", all, sizeof all),
+                       r->reference_kind ? "" : br_suggestion(name, names, count, suggestion));
+    if (!r->reference_kind->nests)
         return BR_OK;
     return read_fine(text, text + length + (text[length] == ':'), r, err);
 }

@@ -33,7 +33,7 @@ enum br_status br_read_step(const char *option, const char *text, const struct b
 struct br_study_request {
     size_t *n, n_count; /* of -n; borrowed from the options */
     struct br_asked_steps steps;
-    const struct br_judge *judge; /* NULL: not given */
+    const struct br_reference *reference_kind; /* NULL: not given */
     size_t reference_n;
     const char *reference_k; /* as br_read_step takes it; borrowed from the options */
     const struct br_norm *norm[BR_MOST_NORMS];

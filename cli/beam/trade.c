@@ -24,7 +24,7 @@ struct item {
     struct br_trade trade;
 };
 
-struct run {
+struct trade_run {
     const struct br_options *options; /* borrowed */
     struct br_session *session;       /* borrowed */
     struct br_study_request study;
@@ -40,7 +40,8 @@ struct run {
 /* All trials take about so many seconds, if neither a list nor --all asks for more. */
 static const double usual_seconds = 10;
 
-static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
+static enum br_status set_request(const struct trade_run *r, struct item *item,
+                                  struct br_error *err)
 {
     static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
                                                BR_OPTIONS}; /* given lists are tried as they are */
@@ -49,13 +50,13 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     struct br_trial_request *q = &item->trade.request;
     struct br_named_method fine;
     *q = br_trial_request_default(scene);
-    q->judge = r->study.judge;
+    q->reference_kind = r->study.reference_kind;
     q->threads = r->session->threads;
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (!br_first_given(o, listed) && !br_option_given(o, BR_OPT_ALL))
         q->seconds = usual_seconds;
     q->norm = r->study.norm[0];
-    if (!q->judge || !q->judge->nests)
+    if (!q->reference_kind || !q->reference_kind->nests)
         return BR_OK;
     if (br_named_method_read(br_highest_scheme()->name, &fine, err))
         return err->status;
@@ -87,7 +88,7 @@ static void keep_usual(struct br_named_methods *all)
     all->count = kept;
 }
 
-static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
+static enum br_status lay_out(const struct trade_run *r, struct item *item, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
@@ -116,7 +117,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
 }
 
 /* Refuses a list that no method uses. */
-static enum br_status check_used(const struct run *r, bool split, struct br_error *err)
+static enum br_status check_used(const struct trade_run *r, bool split, struct br_error *err)
 {
     const struct br_options *o = r->options;
     const struct br_named_methods *methods = &r->study.methods;
@@ -153,7 +154,7 @@ static enum br_status read_error(const char *text, double *error, struct br_erro
 }
 
 /* What --error or --seconds asks for, of one scene and by a reference for all meshes and steps. */
-static enum br_status read_goal(struct run *r, struct br_error *err)
+static enum br_status read_goal(struct trade_run *r, struct br_error *err)
 {
     static const enum br_option_id goals[] = {BR_OPT_ERROR, BR_OPT_SECONDS, BR_OPTIONS};
     const struct br_options *o = r->options;
@@ -164,23 +165,23 @@ static enum br_status read_goal(struct run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found both");
     if (o->words != 1)
         return br_fail(err, BR_BAD_INPUT, "--%s: found %zu scenes, expected one", goal, o->words);
-    if (r->study.judge && r->study.judge->nests)
+    if (r->study.reference_kind && r->study.reference_kind->nests)
         return br_fail(err, BR_BAD_INPUT,
                        "--reference: found '%s', expected a reference for any mesh and time step: "
                        "exact or mms",
-                       r->study.judge->name);
+                       r->study.reference_kind->name);
     r->goal.seconds = br_option_number(o, BR_OPT_SECONDS, 0);
     return error ? read_error(error, &r->goal.error, err) : BR_OK;
 }
 
-static enum br_status check_norm(const struct run *r, struct br_error *err)
+static enum br_status check_norm(const struct trade_run *r, struct br_error *err)
 {
     return r->study.norms > 1
                ? br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms)
                : BR_OK;
 }
 
-static enum br_status read_scenes(struct run *r, struct br_error *err)
+static enum br_status read_scenes(struct trade_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
     if (!(r->item = br_allocate(o->words, sizeof *r->item)))
@@ -206,13 +207,13 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
 /* A shorter forecast is not printed, s. */
 static const double worth_printing = 3;
 
-static enum br_status run_one(struct run *r, struct item *item, struct br_error *err)
+static enum br_status run_one(struct trade_run *r, struct item *item, struct br_error *err)
 {
     struct br_trade *trade = &item->trade;
     const struct br_trial_forecast *o = &trade->forecast;
     const char *name = item->opened.scene.name;
     trade->request.observer = br_progress_start(name, r->session->quiet);
-    enum br_status status = br_trade_foresee(trade, err);
+    enum br_status status = br_trade_estimate(trade, err);
     if (!status && !r->session->quiet && !br_trade_has_goal(trade) &&
         (o->seconds >= worth_printing || o->left > 0)) {
         br_progress_end();
@@ -229,7 +230,7 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 
-static enum br_status run_all(struct run *r, struct br_error *err)
+static enum br_status run_all(struct trade_run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
@@ -245,7 +246,7 @@ static enum br_status run_all(struct run *r, struct br_error *err)
 /* ---- results ---- */
 
 /* A report of each scene, and where there are several one of all. */
-static enum br_status write_all(struct run *r, struct br_error *err)
+static enum br_status write_all(struct trade_run *r, struct br_error *err)
 {
     const struct br_trade **trade = br_allocate(r->items, sizeof *trade);
     enum br_status status = trade ? br_session_report(r->session, r->items + (r->items > 1), err)
@@ -277,7 +278,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 }
 
 /* Failed trials are results; a scene in which all failed is a failure. */
-static enum br_status check(const struct run *r, struct br_error *err)
+static enum br_status check(const struct trade_run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         const struct br_trade *t = &r->item[i].trade;
@@ -309,7 +310,8 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
 }
 
 /* Adds the runs of a method on a mesh: by time steps or by tolerances. */
-static void add_runs(struct run *r, const struct br_named_method *c, size_t n, size_t step_count)
+static void add_runs(struct trade_run *r, const struct br_named_method *c, size_t n,
+                     size_t step_count)
 {
     enum { DEFAULT_STEPS = 1000 };
     const struct br_options *o = r->options;
@@ -329,7 +331,7 @@ static void add_runs(struct run *r, const struct br_named_method *c, size_t n, s
         }
 }
 
-static enum br_status lay_out_split(struct run *r, struct br_error *err)
+static enum br_status lay_out_split(struct trade_run *r, struct br_error *err)
 {
     static const size_t default_n[] = {100};
     const struct br_options *o = r->options;
@@ -354,7 +356,7 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status compute_split(struct run *r, struct br_error *err)
+static enum br_status compute_split(struct trade_run *r, struct br_error *err)
 {
     const struct br_observer *observer = br_progress_start("splitting", r->session->quiet);
     enum br_status status = BR_OK;
@@ -367,7 +369,7 @@ static enum br_status compute_split(struct run *r, struct br_error *err)
 }
 
 /* The picture is over k or h, where the runs differ by one of them. */
-static enum br_status write_split(struct run *r, struct br_error *err)
+static enum br_status write_split(struct trade_run *r, struct br_error *err)
 {
     const struct br_provenance provenance = br_provenance_of(&r->item->opened, r->session->threads);
     if (br_session_report(r->session, 1, err))
@@ -377,7 +379,7 @@ static enum br_status write_split(struct run *r, struct br_error *err)
     return br_session_finish(r->session, err);
 }
 
-static bool split(struct run *r, struct br_error *err)
+static bool split(struct trade_run *r, struct br_error *err)
 {
     const bool writes = r->session->writes;
     return lay_out_split(r, err) || br_session_open(r->session, err) ||
@@ -387,7 +389,7 @@ static bool split(struct run *r, struct br_error *err)
 
 /* ---- the command ---- */
 
-static bool trade(struct run *r, struct br_error *err)
+static bool trade(struct trade_run *r, struct br_error *err)
 {
     if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err) ||
         check_norm(r, err) || check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
@@ -402,7 +404,7 @@ static bool trade(struct run *r, struct br_error *err)
 static enum br_status run(const struct br_options *options, struct br_session *session,
                           struct br_error *err)
 {
-    struct run r = {.options = options, .session = session};
+    struct trade_run r = {.options = options, .session = session};
     const bool failed = br_option_given(options, BR_OPT_SPLIT) ? split(&r, err) : trade(&r, err);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);

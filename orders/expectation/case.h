@@ -76,7 +76,7 @@ struct br_case {
                                   NaN: it is none, or that of n^g */
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */
     double constant;  /* the largest of the finest five used points'; NaN: none */
-    const char *open; /* why no order can be judged, and what would show one; NULL; borrowed */
+    const char *open; /* why there is no verdict, and what would show an order; NULL; borrowed */
     bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's
                    */
     double duration; /* T of the scene, s; 0: of another program */
@@ -102,6 +102,6 @@ char *br_case_note(const struct br_case *c, char text[BR_CASE_NOTE]);
 void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);
 
 /* The verdict on what was observed. */
-void br_case_judge(struct br_case *c);
+void br_case_decide(struct br_case *c);
 
 #endif

@@ -149,8 +149,8 @@ static enum br_status observe(const struct br_orders_line *line,
 }
 
 /* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
-static enum br_status judge(const struct br_orders *o, const struct br_order_expectation *e,
-                            const char *path, struct br_case *c, struct br_error *err)
+static enum br_status find_verdict(const struct br_orders *o, const struct br_order_expectation *e,
+                                   const char *path, struct br_case *c, struct br_error *err)
 {
     const struct br_quantity_orders *of = NULL;
     for (size_t i = 0; i < o->count && !of; i++)
@@ -176,7 +176,7 @@ static enum br_status judge(const struct br_orders *o, const struct br_order_exp
     if (!joint && answer->open)
         br_case_take_order(c, answer->order, NAN);
     c->open = answer->open;
-    br_case_judge(c);
+    br_case_decide(c);
     if (isnan(c->order.value)) /* of too few errors for a verdict */
         c->order = answer->order;
     return BR_OK;
@@ -191,6 +191,6 @@ enum br_status br_orders_check(const struct br_orders *o, const struct br_order_
         return br_no_memory(err, "the verdicts");
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count && !status; i++)
-        status = judge(o, &e[i], check->path, &check->cases[check->count++], err);
+        status = find_verdict(o, &e[i], check->path, &check->cases[check->count++], err);
     return status;
 }

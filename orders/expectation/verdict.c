@@ -236,7 +236,7 @@ static void advise(struct br_case *c)
         br_append(c->reason, sizeof c->reason, " (expected: %s)", e->why);
 }
 
-static void judge_too_few(struct br_case *c)
+static void decide_too_few(struct br_case *c)
 {
     bool unstable = false, missing = false;
     for (size_t i = 0; i < c->points; i++) {
@@ -299,7 +299,7 @@ static const struct br_point *turning_point(const struct br_case *c)
     return clear ? last - 2 : NULL;
 }
 
-static void judge_beyond(struct br_case *c, const struct br_point *first)
+static void decide_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
     const struct br_point *before = first > c->point ? &first[-1] : first;
@@ -408,7 +408,7 @@ static bool falls_by_two(const struct br_case *c, double low, double high)
 }
 
 /* Exponential convergence has no order, and an order is no such convergence. */
-static void judge_factor(struct br_case *c)
+static void decide_factor(struct br_case *c)
 {
     const double low = c->expected.order - c->expected.tolerance,
                  high = c->expected.order + c->expected.tolerance;
@@ -442,7 +442,7 @@ static void note_two(struct br_case *c)
               c->expected.highest, c->expected.order);
 }
 
-static void judge_order(struct br_case *c)
+static void decide_order(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
     const double low = e->order - e->tolerance, high = fmax(e->order, e->highest) + e->tolerance;
@@ -473,7 +473,7 @@ static void judge_order(struct br_case *c)
 
 /* An order can be right while the errors have doubled; errors that have become small mean another
  * scheme, too. */
-static void judge_constant(struct br_case *c)
+static void decide_constant(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
     const bool high = !isnan(e->ceiling) && !(c->constant <= e->ceiling);
@@ -545,7 +545,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
     choose_points(c);
 }
 
-void br_case_judge(struct br_case *c)
+void br_case_decide(struct br_case *c)
 {
     const struct br_point *failed = first_failed(c), *beyond = first_beyond(c),
                           *turns = turning_point(c);
@@ -565,13 +565,13 @@ void br_case_judge(struct br_case *c)
         conclude(c, BR_FAIL, "the errors fall, but from %s on they grow, to %.2e", turns->label,
                  c->point[c->points - 1].error);
     else if (beyond) {
-        judge_beyond(c, beyond);
-        judge_constant(c);
+        decide_beyond(c, beyond);
+        decide_constant(c);
     } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
-        judge_too_few(c);
+        decide_too_few(c);
     else {
-        (c->exponential ? judge_factor : judge_order)(c);
-        judge_constant(c);
+        (c->exponential ? decide_factor : decide_order)(c);
+        decide_constant(c);
     }
     if (c->verdict == BR_INCONCLUSIVE)
         name_sizes(c);

@@ -110,7 +110,7 @@ static struct br_gci_pair pair_of(const double *h, const double *value, double o
 }
 
 /* Sets sequence and order from the three grids h[0] to h[2]. */
-static void judge_triplet(const double *h, const double *value, struct br_gci *gci)
+static void check_triplet(const double *h, const double *value, struct br_gci *gci)
 {
     const double e21 = value[1] - value[2], e32 = value[0] - value[1];
     const double zero = round_off_of(value, 3);
@@ -148,7 +148,7 @@ void br_gci(const double *h, const double *value, size_t count, struct br_gci *g
     *gci = (struct br_gci){.order = NAN};
     h += count - 3;
     value += count - 3;
-    judge_triplet(h, value, gci);
+    check_triplet(h, value, gci);
     const double order = convergent(gci->sequence) ? gci->order : NAN;
     gci->fine = pair_of(h + 1, value + 1, order);
     gci->coarse = pair_of(h, value, order);

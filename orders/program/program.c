@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/cache.h"
 #include "base/each.h"
-#include "base/kept.h"
 #include "orders/program/process.h"
 #include "orders/request.h"
 
@@ -16,7 +16,7 @@ struct job {
     const struct br_orders_request *program;
     struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
     uint64_t *stamp;            /* of each row's files, when the study began; owned */
-    struct br_kept *kept;
+    struct br_cache *cache;
 };
 
 /* ---- finished cells ---- */
@@ -28,7 +28,7 @@ static enum br_status text_of(const struct job *j, const struct br_command_words
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_statement s;
-    br_kept_begin(j->kept, "run", &s);
+    br_cache_begin(j->cache, "run", &s);
     const enum br_status status = br_command_state(&s, cell, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
@@ -66,24 +66,24 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
-/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not kept. A row is
- * of the files with which the study began, or it has failed. */
+/* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not cached. A row
+ * is of the files with which the study began, or it has failed. */
 static enum br_status get_row(const struct job *j, const struct br_command_words *words,
                               const char *text, size_t i, struct br_error *err)
 {
     struct row of = {&j->numbers->row[i], j->numbers->quantities};
-    of.row->kept = br_kept_take(j->kept, text, pass_row, &of);
-    if (!of.row->kept)
+    of.row->cached = br_cache_take(j->cache, text, pass_row, &of);
+    if (!of.row->cached)
         br_run_command(j->program, words, of.row, err);
     if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
-        of.row->kept = false;
+        of.row->cached = false;
         return br_run_failed(j->program, of.row, err,
                              "%s, or a file that the command names, changed during the study",
                              words->program);
     }
-    if (!err->status && text && !of.row->kept && !of.row->failure &&
-        !br_kept_put(j->kept, text, pass_row, &of))
-        br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s", j->program->kept,
+    if (!err->status && text && !of.row->cached && !of.row->failure &&
+        !br_cache_put(j->cache, text, pass_row, &of))
+        br_fail(err, BR_IO, "%.800s: a finished cell could not be cached: %s", j->program->cache,
                 strerror(errno));
     return err->status;
 }
@@ -97,7 +97,7 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     enum br_status status = br_command_split(j->program, row, &words, err);
     if (status == BR_BAD_INPUT) /* it was valid before: its program is gone */
         status = br_run_failed(j->program, row, err, "%s", err->message);
-    else if (!status && j->program->kept)
+    else if (!status && j->program->cache)
         status = text_of(j, &words, row->repeat, &text, err);
     if (!status && !row->failure)
         status = get_row(j, &words, text, i, err);
@@ -223,7 +223,7 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             row.seconds += other->seconds;
             row.wall += other->wall;
             row.bytes = fmax(row.bytes, other->bytes);
-            row.kept &= other->kept;
+            row.cached &= other->cached;
             if (!row.failure) {
                 row.failure = other->failure;
                 other->failure = NULL;
@@ -264,12 +264,12 @@ static enum br_status check_commands(struct job *j, struct br_error *err)
     return status;
 }
 
-/* Cells are kept for all versions of beamrate. */
-static enum br_status open_kept(struct job *j, struct br_error *err)
+/* Cells are cached for all versions of beamrate. */
+static enum br_status open_cache(struct job *j, struct br_error *err)
 {
-    const char *folder = j->program->kept;
-    const int length = snprintf(j->kept->folder, sizeof j->kept->folder, "%s", folder);
-    const bool fits = (size_t)length < sizeof j->kept->folder;
+    const char *folder = j->program->cache;
+    const int length = snprintf(j->cache->folder, sizeof j->cache->folder, "%s", folder);
+    const bool fits = (size_t)length < sizeof j->cache->folder;
     if (fits && (mkdir(folder, 0777) == 0 || errno == EEXIST))
         return BR_OK;
     return br_fail(err, BR_IO, "%.900s: %s", folder, strerror(fits ? errno : ENAMETOOLONG));
@@ -278,8 +278,8 @@ static enum br_status open_kept(struct job *j, struct br_error *err)
 enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
                               struct br_error *err)
 {
-    struct br_kept kept = {.take = !program->anew};
-    struct job j = {.program = program, .numbers = numbers, .kept = &kept};
+    struct br_cache cache = {.take = !program->anew};
+    struct job j = {.program = program, .numbers = numbers, .cache = &cache};
     *numbers = (struct br_numbers){.rows = 0};
     if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
         return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
@@ -287,7 +287,7 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
     bool failed = br_program_rows(program, numbers, err) ||
                   make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                  (program->kept && open_kept(&j, err));
+                  (program->cache && open_cache(&j, err));
     const struct br_each each = {.count = numbers->rows,
                                  .threads = program->jobs,
                                  .observer = program->observer,

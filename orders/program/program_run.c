@@ -28,7 +28,7 @@ enum {
 
 enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
-struct run {
+struct program_run {
     const struct br_orders_request *request;
     const struct br_command_words *words;
     struct br_run_folder folder;
@@ -57,7 +57,7 @@ static char **make_environment(void)
     return environment;
 }
 
-static enum br_status cannot_run(const struct run *r, int failure, struct br_error *err)
+static enum br_status cannot_run(const struct program_run *r, int failure, struct br_error *err)
 {
     const bool wrong = failure == ENOENT || failure == ENOEXEC || failure == EACCES;
     return br_fail(err, wrong ? BR_BAD_INPUT : BR_IO, "%.900s cannot be run: %s%s",
@@ -65,7 +65,7 @@ static enum br_status cannot_run(const struct run *r, int failure, struct br_err
                    failure == ENOENT ? " (its interpreter?)" : "");
 }
 
-static enum br_status start(struct run *r, struct br_error *err)
+static enum br_status start(struct program_run *r, struct br_error *err)
 {
     struct rusage own;
     for (int i = 0; i < 2; i++) {
@@ -94,14 +94,14 @@ static size_t size_of(int file)
     return fstat(file, &info) == 0 ? (size_t)info.st_size : SIZE_MAX;
 }
 
-static bool prints_too_much(const struct run *r)
+static bool prints_too_much(const struct program_run *r)
 {
     return size_of(r->process.output[0]) > MOST_PRINTED ||
            size_of(r->process.output[1]) > MOST_PRINTED;
 }
 
 /* Why a run must be ended; BY_ITSELF: it need not be. */
-static enum end end_of(const struct run *r, double wall)
+static enum end end_of(const struct program_run *r, double wall)
 {
     if (br_observer_stops(r->request->observer))
         return STOPPED;
@@ -111,7 +111,7 @@ static enum end end_of(const struct run *r, double wall)
 }
 
 /* Waits for the end, or brings it. What cannot be killed is left after a while. */
-static void watch(struct run *r)
+static void watch(struct program_run *r)
 {
     const double begun = br_seconds();
     double asked = INFINITY; /* when it was asked to end, s */
@@ -139,7 +139,8 @@ static void watch(struct run *r)
 
 /* ---- what is left of it ---- */
 
-__attribute__((format(printf, 2, 3))) static void warn(const struct run *r, const char *format, ...)
+__attribute__((format(printf, 2, 3))) static void warn(const struct program_run *r,
+                                                       const char *format, ...)
 {
     const struct br_observer *o = r->request->observer;
     char text[PATH_MAX + 200];
@@ -151,7 +152,7 @@ __attribute__((format(printf, 2, 3))) static void warn(const struct run *r, cons
         o->warn(o->self, text);
 }
 
-static void clean(struct run *r)
+static void clean(struct program_run *r)
 {
     char path[PATH_MAX];
     if (r->how.survives)
@@ -209,8 +210,8 @@ enum br_status br_run_failed(const struct br_orders_request *request, struct br_
 }
 
 /* why: what was wrong with its numbers. */
-static enum br_status fail_row(const struct run *r, const char *why, struct br_numbers_row *row,
-                               struct br_error *err)
+static enum br_status fail_row(const struct program_run *r, const char *why,
+                               struct br_numbers_row *row, struct br_error *err)
 {
     const int status = r->how.status;
     char what[sizeof err->message], tail[TAIL];
@@ -250,7 +251,7 @@ static enum br_status load(int file, char **text, size_t *length, struct br_erro
 }
 
 /* Reads the numbers of a run: its quantities, and the resolutions that it states itself. */
-static enum br_status read_numbers(const struct run *r, struct br_numbers_row *row,
+static enum br_status read_numbers(const struct program_run *r, struct br_numbers_row *row,
                                    struct br_error *why)
 {
     const struct br_orders_request *q = r->request;
@@ -278,7 +279,8 @@ static enum br_status read_numbers(const struct run *r, struct br_numbers_row *r
     return status;
 }
 
-static enum br_status finish(const struct run *r, struct br_numbers_row *row, struct br_error *err)
+static enum br_status finish(const struct program_run *r, struct br_numbers_row *row,
+                             struct br_error *err)
 {
     struct br_error why = {0};
     const struct timeval *user = &r->how.usage.ru_utime, *system = &r->how.usage.ru_stime;
@@ -307,7 +309,7 @@ enum br_status br_run_command(const struct br_orders_request *request,
                               const struct br_command_words *words, struct br_numbers_row *row,
                               struct br_error *err)
 {
-    struct run r = {.request = request, .words = words, .process.output = {-1, -1}};
+    struct program_run r = {.request = request, .words = words, .process.output = {-1, -1}};
     const int failure = br_run_folder_make(&r.folder);
     if (failure)
         return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", br_temporary(),

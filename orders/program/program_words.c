@@ -175,8 +175,8 @@ static bool is_program(const char *path)
            access(path, X_OK) == 0;
 }
 
-/* The path of a program in PATH; NULL: no memory. It has to be known, since its runs are kept under
- * its contents, and a change of it during a study is noticed. */
+/* The path of a program in PATH; NULL: no memory. It has to be known, since its runs are cached
+ * under its contents, and a change of it during a study is noticed. */
 static char *search(const char *here, const char *name)
 {
     const char *folders = getenv("PATH"), *folder = folders ? folders : "/usr/bin:/bin";

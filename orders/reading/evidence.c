@@ -84,14 +84,14 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         sign += isnan(rate->number[i]) ? 0 : rate->number[i];
     for (size_t at = 0; next_pair(v, &at, &p);) {
         const size_t row = finer ? p.fine : p.coarse;
-        const double seen = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
+        const double observed = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
         const double of_sizes =
-            z->is_whole ? 0 : fabs(seen) * (z->rounding[p.coarse] + z->rounding[p.fine]);
+            z->is_whole ? 0 : fabs(observed) * (z->rounding[p.coarse] + z->rounding[p.fine]);
         const double digits =
             -log1p(-e->rounding[p.coarse]) - log1p(-e->rounding[p.fine]) + of_sizes;
-        if (isnan(rate->number[row]) || !isfinite(seen))
+        if (isnan(rate->number[row]) || !isfinite(observed))
             continue;
-        const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
+        const double off = fabs(observed - (sign < 0 ? -1 : 1) * rate->number[row]);
         const double beyond = off - fmin(most, fmax(least, of_digit(rate, row)));
         if (beyond > coarse && beyond <= digits / p.ratio) /* too few digits to tell */
             continue;

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "orders/reading/json.h"
 #include "base/words.h"
+#include "orders/reading/json.h"
 
 enum { DEEPEST = 12, LONGEST = 400 };
 

@@ -15,13 +15,13 @@
 
 /* A line, split as the table is. */
 struct row {
-    struct br_piece *piece;
-    size_t count;          /* of pieces */
-    size_t numbers, words; /* of pieces that are neither missing nor empty */
+    struct br_token *token;
+    size_t count;          /* of tokens */
+    size_t numbers, words; /* of tokens that are neither missing nor empty */
     bool is_row, is_used;
 };
 
-enum { WIDEST = BR_MOST_COLUMNS + 3 /* pieces */, SAMPLE = 100 /* lines at each end */ };
+enum { WIDEST = BR_MOST_COLUMNS + 3 /* tokens */, SAMPLE = 100 /* lines at each end */ };
 
 struct layout {
     const char *path;
@@ -35,7 +35,7 @@ struct layout {
     enum br_separator by;
     size_t width, rows;
     size_t first, last;            /* rows, as lines */
-    struct br_piece piece[WIDEST]; /* of the last line that was split */
+    struct br_token token[WIDEST]; /* of the last line that was split */
     long gain[WIDEST];             /* by width: how well it explains the lines */
     size_t names[WIDEST];          /* by width: lines without a number */
     bool skipped[WIDEST];          /* by column: the heading has no name of it */
@@ -44,22 +44,22 @@ struct layout {
 
 /* ---- the way to separate fields ---- */
 
-/* Splits a line into l->piece. Empty pieces behind the width are none. */
+/* Splits a line into l->token. Empty tokens behind the width are none. */
 static struct row look_at(struct layout *l, size_t line, char *room)
 {
-    struct row r = {.piece = l->piece};
-    r.count = br_line_split(l->line[line].text, l->by, l->fields->mark, room, l->piece);
-    while (l->width && r.count > l->width && l->piece[r.count - 1].content == BR_NOTHING)
+    struct row r = {.token = l->token};
+    r.count = br_line_split(l->line[line].text, l->by, l->fields->mark, room, l->token);
+    while (l->width && r.count > l->width && l->token[r.count - 1].content == BR_NOTHING)
         r.count--;
     for (size_t i = 0; i < r.count; i++) {
-        r.numbers += l->piece[i].content == BR_NUMBER;
-        r.words += l->piece[i].content >= BR_WORD;
+        r.numbers += l->token[i].content == BR_NUMBER;
+        r.words += l->token[i].content >= BR_WORD;
     }
     return r;
 }
 
 /* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
- * word costs one. Each line counts with and without its empty pieces at the end; a heading decides
+ * word costs one. Each line counts with and without its empty tokens at the end; a heading decides
  * between the two. */
 static long measure(struct layout *l)
 {
@@ -74,7 +74,7 @@ static long measure(struct layout *l)
         const struct row r = look_at(l, i, l->room);
         const long more = r.numbers ? 3 * (long)r.numbers - (long)r.words : 0;
         size_t filled = r.count;
-        while (filled > 1 && l->piece[filled - 1].content == BR_NOTHING)
+        while (filled > 1 && l->token[filled - 1].content == BR_NOTHING)
             filled--;
         l->gain[r.count] += more;
         l->gain[filled] += filled < r.count ? more : 0;
@@ -135,10 +135,10 @@ static enum br_status split_lines(struct layout *l)
             return br_no_memory(l->err, "the table");
         struct row *r = &l->row[i];
         *r = look_at(l, i, room);
-        r->piece = br_store_take(store, r->count + 1, sizeof *r->piece);
-        if (!r->piece)
+        r->token = br_store_take(store, r->count + 1, sizeof *r->token);
+        if (!r->token)
             return br_no_memory(l->err, "the table");
-        memcpy(r->piece, l->piece, r->count * sizeof *r->piece);
+        memcpy(r->token, l->token, r->count * sizeof *r->token);
         if (r->count != l->width || !r->numbers)
             continue;
         if (++l->rows > BR_MOST_TABLE_ROWS)
@@ -150,7 +150,7 @@ static enum br_status split_lines(struct layout *l)
                            l->path, l->line[i].number, l->rows, l->width, BR_MOST_FIELDS);
         for (size_t c = 0; c < l->width; c++)
             l->has_number[c] +=
-                r->piece[c].content == BR_NUMBER || r->piece[c].content == BR_MISSING;
+                r->token[c].content == BR_NUMBER || r->token[c].content == BR_MISSING;
     }
     return BR_OK;
 }
@@ -161,7 +161,7 @@ static bool is_like_rows(const struct layout *l, const struct row *r)
     size_t all = 0, there = 0;
     for (size_t c = 0; c < l->width && r->count == l->width; c++) {
         all += 2 * l->has_number[c] > l->rows;
-        there += 2 * l->has_number[c] > l->rows && r->piece[c].content < BR_WORD;
+        there += 2 * l->has_number[c] > l->rows && r->token[c].content < BR_WORD;
     }
     return r->count == l->width && 2 * there >= all && (r->numbers || !r->words);
 }
@@ -187,7 +187,7 @@ static bool is_summary(const struct row *r)
     static const char *const words[] = {"mean",  "average", "avg", "overall", "slope",
                                         "order", "eoc",     "fit", "total",   "median",
                                         "min",   "max",     "std", "rate"};
-    const char *const text = r->count ? r->piece->text + strspn(r->piece->text, "*_ ") : "";
+    const char *const text = r->count ? r->token->text + strspn(r->token->text, "*_ ") : "";
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strncasecmp(text, words[i], strlen(words[i])) == 0)
             return true;
@@ -220,7 +220,7 @@ static bool has_other_words(const struct layout *l, size_t line)
 {
     bool words = false;
     for (size_t i = 0; i < l->width; i++)
-        words |= l->has_number[i] > 1 && l->row[line].piece[i].content >= BR_WORD;
+        words |= l->has_number[i] > 1 && l->row[line].token[i].content >= BR_WORD;
     return words;
 }
 
@@ -260,7 +260,7 @@ static bool is_sequence(const struct layout *l)
         for (size_t i = l->first; i <= l->last; i++) {
             const struct row *r = &l->row[i];
             rows += r->is_row;
-            if (!r->is_row || !br_field_read(r->piece[c].text, l->fields->mark, &number))
+            if (!r->is_row || !br_field_read(r->token[c].text, l->fields->mark, &number))
                 continue;
             up += read && number.value > before.value;
             down += read && number.value < before.value;
@@ -313,12 +313,12 @@ static bool begins_again(const struct layout *l, size_t line)
     bool again = false;
     const struct row *first = &l->row[l->first], *next = &l->row[next_text(l, l->first, 1)];
     for (size_t i = 0; i < l->width; i++) {
-        const char *const text = first->piece[i].text;
-        const bool is_same = strcmp(text, l->row[line].piece[i].text) == 0;
+        const char *const text = first->token[i].text;
+        const bool is_same = strcmp(text, l->row[line].token[i].text) == 0;
         if (2 * l->has_number[i] <= l->rows && !is_same)
             return false;
         again |= is_same && !br_field_is_missing(text) && !is_rate(l->fields->heading[i]) &&
-                 (i >= next->count || strcmp(text, next->piece[i].text) != 0);
+                 (i >= next->count || strcmp(text, next->token[i].text) != 0);
     }
     return again;
 }
@@ -344,11 +344,11 @@ static bool has_index(const struct layout *l)
     const size_t next = next_text(l, l->first, 1);
     if (next > l->last || l->width < 2)
         return false;
-    const char *const text = l->row[l->first].piece->text;
+    const char *const text = l->row[l->first].token->text;
     if (!br_field_read(text, '.', &one))
         return !br_field_is_missing(text);
     return (one.value == 0 || one.value == 1) &&
-           (!br_field_read(l->row[next].piece->text, '.', &two) || two.value == one.value + 1);
+           (!br_field_read(l->row[next].token->text, '.', &two) || two.value == one.value + 1);
 }
 
 /* Which columns begin with a gap, as those of rates do (l->skipped); returns how many. */
@@ -357,14 +357,14 @@ static size_t find_gaps(struct layout *l)
     const struct row *r = &l->row[l->first];
     size_t gaps = 0;
     for (size_t i = 0; i < l->width; i++) {
-        l->skipped[i] = i >= r->count || r->piece[i].content == BR_NOTHING ||
-                        (r->piece[i].content == BR_MISSING && *r->piece[i].text == '-');
+        l->skipped[i] = i >= r->count || r->token[i].content == BR_NOTHING ||
+                        (r->token[i].content == BR_MISSING && *r->token[i].text == '-');
         gaps += l->skipped[i];
     }
     return r->count == l->width || l->rows > 1 ? gaps : 0;
 }
 
-/* Splits a line in the way of the rows or another one, so that it has `wanted` pieces (l->piece).
+/* Splits a line in the way of the rows or another one, so that it has `wanted` tokens (l->token).
  */
 static bool split_names(struct layout *l, size_t line, size_t wanted)
 {
@@ -372,8 +372,8 @@ static bool split_names(struct layout *l, size_t line, size_t wanted)
     char *room = br_store_take(&l->fields->store, BR_ROOM(text), 1);
     for (int i = BR_BY_TABS - 1; room && i < BR_SEPARATORS; i++) {
         const enum br_separator by = i < BR_BY_TABS ? l->by : (enum br_separator)i;
-        size_t count = br_line_split(text, by, '.', room, l->piece);
-        while (count > wanted && l->piece[count - 1].content == BR_NOTHING)
+        size_t count = br_line_split(text, by, '.', room, l->token);
+        while (count > wanted && l->token[count - 1].content == BR_NOTHING)
             count--;
         if (count == wanted)
             return true;
@@ -405,12 +405,12 @@ static bool take_names(struct layout *l, size_t line)
     if (!wanted || !split_names(l, line, wanted))
         return false;
     for (size_t i = 0; i < wanted && l->line[line].kind == BR_LINE_COMMENT; i++) {
-        const size_t length = strlen(l->piece[i].text);
-        if (l->piece[i].content == BR_NUMBER || (length && l->piece[i].text[length - 1] == ':'))
+        const size_t length = strlen(l->token[i].text);
+        if (l->token[i].content == BR_NUMBER || (length && l->token[i].text[length - 1] == ':'))
             return false;
     }
     for (size_t i = 0; i < l->width; i++)
-        l->fields->heading[i] = l->skipped[i] ? NULL : plain_name(l->piece[used++].text, i);
+        l->fields->heading[i] = l->skipped[i] ? NULL : plain_name(l->token[used++].text, i);
     l->fields->heading_line = l->line[line].number;
     return l->row[line].is_used = true;
 }
@@ -429,7 +429,7 @@ static bool take_short_heading(struct layout *l, size_t above)
     l->skipped[0] = true;
     bool found = has_index(l) && take_names(l, above);
     if (!found && is_index && take_names(l, title)) {
-        l->fields->heading[0] = r->piece->text;
+        l->fields->heading[0] = r->token->text;
         found = l->row[above].is_used = true;
     }
     l->skipped[0] = false;
@@ -450,7 +450,7 @@ static size_t period_of(const struct layout *l, size_t groups)
     return 0;
 }
 
-/* How many columns a piece stands above, as LaTeX has it; the piece (out) becomes its text. */
+/* How many columns a token stands above, as LaTeX has it; the token (out) becomes its text. */
 static size_t columns_of(char **text)
 {
     size_t columns = 1;
@@ -471,11 +471,11 @@ static bool find_groups(const struct layout *l, size_t line, const char **group)
     size_t column = 0;
     if (period && !r->numbers) {
         for (size_t i = 0; i < r->count * period; i++)
-            group[l->width - r->count * period + i] = r->piece[i / period].text;
+            group[l->width - r->count * period + i] = r->token[i / period].text;
         return true;
     }
     for (size_t i = 0; i < r->count && column < l->width; i++) {
-        char *text = r->piece[i].text;
+        char *text = r->token[i].text;
         const size_t columns = columns_of(&text);
         for (size_t j = 0; j < columns && column < l->width; j++, column++)
             group[column] = *text ? text : column ? group[column - 1] : NULL;
@@ -525,7 +525,7 @@ static bool has_names_in_row(const struct layout *l)
     bool words = false;
     const struct row *r = &l->row[l->first];
     for (size_t i = 0; i < l->width && l->rows > 2 && r->count == l->width; i++)
-        words |= r->piece[i].content >= BR_WORD && l->has_number[i] + 1 >= l->rows;
+        words |= r->token[i].content >= BR_WORD && l->has_number[i] + 1 >= l->rows;
     return words;
 }
 
@@ -542,7 +542,7 @@ static enum br_status find_heading(struct layout *l)
 {
     const size_t above = next_text(l, l->first, -1), first = l->first;
     for (size_t i = 0; i < l->width && l->by <= BR_BY_COLONS; i++) {
-        l->fields->heading[i] = l->row[first].piece[i].name;
+        l->fields->heading[i] = l->row[first].token[i].name;
         l->fields->heading_line = l->line[first].number;
     }
     if (l->by <= BR_BY_COLONS)
@@ -574,9 +574,9 @@ static enum br_status find_heading(struct layout *l)
 
 /* ---- fields ---- */
 
-/* The column of each piece of a row that has fewer than columns: the gaps are in columns of rates,
+/* The column of each token of a row that has fewer than columns: the gaps are in columns of rates,
  * by their names, or behind the first row of a table without names; false: they are not known. */
-static bool place_pieces(const struct layout *l, size_t line, size_t *column)
+static bool place_tokens(const struct layout *l, size_t line, size_t *column)
 {
     const size_t count = l->row[line].count;
     size_t rates = 0, used = 0;
@@ -597,19 +597,19 @@ static enum br_status take_row(struct layout *l, size_t line, size_t *column)
     struct br_fields *f = l->fields;
     const size_t row = f->rows++;
     l->row[line].is_used = true;
-    if (!place_pieces(l, line, column))
+    if (!place_tokens(l, line, column))
         return refuse_row(l, line, f->heading_line ? "heading" : "first row");
     f->line[row] = l->line[line].number;
     for (size_t i = 0; i < l->row[line].count; i++) {
-        const struct br_piece *piece = &l->row[line].piece[i];
+        const struct br_token *token = &l->row[line].token[i];
         const char *const name = f->heading[column[i]];
-        if (piece->name && strcmp(piece->name, name) != 0)
+        if (token->name && strcmp(token->name, name) != 0)
             return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found '%s=%s', expected '%s = ...'",
-                           l->path, f->line[row], piece->name, piece->text, name);
-        if (piece->content == BR_BROKEN)
+                           l->path, f->line[row], token->name, token->text, name);
+        if (token->content == BR_BROKEN)
             return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found text behind a quote in its field",
                            l->path, f->line[row]);
-        f->field[row * f->columns + column[i]] = *piece->text ? piece->text : NULL;
+        f->field[row * f->columns + column[i]] = *token->text ? token->text : NULL;
     }
     return BR_OK;
 }

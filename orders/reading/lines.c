@@ -117,7 +117,7 @@ static const char *skip_quoted(const char *at)
     return *at ? at : NULL;
 }
 
-/* The end of a line, which quotes at the begin of a piece may hold; NULL: one is open to the end.
+/* The end of a line, which quotes at the begin of a token may hold; NULL: one is open to the end.
  */
 static const char *line_end(const char *at)
 {
@@ -224,15 +224,15 @@ enum br_status br_lines_cut(char *text, const char *path, struct br_store *store
     return BR_OK;
 }
 
-/* ---- pieces of a line ---- */
+/* ---- tokens of a line ---- */
 
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t';
 }
 
-/* Whether a piece ends here; *bytes (out): of what separates it from the next one. */
-static bool ends_piece(const char *begin, const char *at, enum br_separator by, size_t *bytes)
+/* Whether a token ends here; *bytes (out): of what separates it from the next one. */
+static bool ends_token(const char *begin, const char *at, enum br_separator by, size_t *bytes)
 {
     static const char signs[] = {
         [BR_BY_TABS] = '\t',      [BR_BY_LONE_BARS] = '|',  [BR_BY_BARS] = '|',
@@ -247,18 +247,18 @@ static bool ends_piece(const char *begin, const char *at, enum br_separator by, 
     return at > begin && (*bytes >= (by == BR_BY_BLANKS ? 1 : 2) || (*bytes && *at != ' '));
 }
 
-/* The end of a quoted piece; NULL: it is not quoted. */
+/* The end of a quoted token; NULL: it is not quoted. */
 static const char *quoted_end(const char *at, enum br_separator by)
 {
     const char *end = *at == '"' ? skip_quoted(at) : NULL;
     return end && (by < BR_BY_WIDE_BLANKS || !end[1] || is_blank(end[1])) ? end + 1 : NULL;
 }
 
-/* Where pieces of a line go. */
+/* Where tokens of a line go. */
 struct splitter {
     enum br_separator by;
     char mark, *room;
-    struct br_piece *piece;
+    struct br_token *token;
     size_t count;
 };
 
@@ -285,14 +285,14 @@ static char *unquote(char *text)
     return text + strspn(text, " \t");
 }
 
-static void add_piece(struct splitter *s, const char *begin, const char *end, const char *name)
+static void add_token(struct splitter *s, const char *begin, const char *end, const char *name)
 {
     struct br_field_number number;
     const char *const close = quoted_end(begin, s->by);
     const bool quoted = close && close <= end;
     char *text = copy(s, begin, end);
     text = quoted && close == end ? unquote(text) : text;
-    s->piece[s->count++] = (struct br_piece){text, name,
+    s->token[s->count++] = (struct br_token){text, name,
                                              quoted && close < end                   ? BR_BROKEN
                                              : !*text                                ? BR_NOTHING
                                              : br_field_is_missing(text)             ? BR_MISSING
@@ -322,7 +322,7 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
     return false;
 }
 
-/* The end of a norm, "||u||", that a piece begins with; NULL: there is none. */
+/* The end of a norm, "||u||", that a token begins with; NULL: there is none. */
 static const char *norm_end(const char *at)
 {
     const bool begins = strncmp(at, "||", 2) == 0 && isalpha((unsigned char)at[2]);
@@ -343,12 +343,12 @@ static void split_signs(struct splitter *s, const char *at)
         const char *const begin = at, *end = bars ? norm_end(at) : NULL;
         end = end ? end : quoted_end(at, by);
         at = end ? end : at;
-        while (*at && !(ends_piece(begin, at, by, &bytes) &&
+        while (*at && !(ends_token(begin, at, by, &bytes) &&
                         !(by == BR_BY_BLANKS && is_in_number(begin, at, bytes))))
             at++;
         for (end = at; end > begin && is_blank(end[-1]); end--)
             ;
-        add_piece(s, begin, end, NULL);
+        add_token(s, begin, end, NULL);
         more = *at && (by < BR_BY_WIDE_BLANKS || at[bytes]);
     }
 }
@@ -395,7 +395,7 @@ static bool add_label(struct splitter *s, const char *at, const char *end)
     while (behind > at && is_blank(behind[-1]))
         behind--;
     const char *const name = copy(s, at, behind);
-    add_piece(s, last, last_end, name);
+    add_token(s, last, last_end, name);
     return true;
 }
 
@@ -416,7 +416,7 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
         while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
-        add_piece(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
+        add_token(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
         if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
             return false; /* a time, as 12:30 */
     }
@@ -424,9 +424,9 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
 }
 
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
-                     struct br_piece *piece)
+                     struct br_token *token)
 {
-    struct splitter s = {by, mark, room, piece, 0};
+    struct splitter s = {by, mark, room, token, 0};
     if (by <= BR_BY_COLONS)
         return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
     split_signs(&s, line);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lines of a text, and the pieces of a line by one separator: for layout.c. */
+/* The lines of a text, and the tokens of a line by one separator: for layout.c. */
 #ifndef BR_ORDERS_READING_LINES_H
 #define BR_ORDERS_READING_LINES_H
 
@@ -44,17 +44,17 @@ enum br_separator {
 
 enum br_content { BR_NOTHING, BR_MISSING, BR_NUMBER, BR_WORD, BR_BROKEN /* text behind a quote */ };
 
-/* A piece of a line, without its quotes and the blanks around it. */
-struct br_piece {
+/* A token of a line, without its quotes and the blanks around it. */
+struct br_token {
     char *text;
     const char *name; /* of a pair, or NULL */
     enum br_content content;
 };
 
-/* Splits a line, with this mark of decimals; room (out) has BR_ROOM(line) bytes for the pieces.
+/* Splits a line, with this mark of decimals; room (out) has BR_ROOM(line) bytes for the tokens.
  * Returns their number, at most BR_MOST_COLUMNS + 2; 0: there are no pairs. */
 #define BR_ROOM(line) (3 * strlen(line) + 4)
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
-                     struct br_piece *piece);
+                     struct br_token *token);
 
 #endif

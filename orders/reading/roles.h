@@ -145,6 +145,48 @@ enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
 
 /* ---- within the reading ---- */
 
+static inline const char *br_role_field(const struct br_roles *r, size_t row, size_t column)
+{
+    return r->fields->field[row * r->columns + column];
+}
+
+static inline const char *br_role_text(const struct br_roles *r, size_t row, size_t column)
+{
+    const char *text = br_role_field(r, row, column);
+    return text ? text : "";
+}
+
+static inline bool br_role_is_studied(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ERROR || c->role == BR_ROLE_VALUE;
+}
+
+/* A copy in the store of the roles; NULL: no memory. */
+char *br_roles_copy(struct br_roles *roles, const char *text);
+
+/* Names the columns by their headings, and by --column (headings.c). */
+enum br_status br_roles_take_headings(struct br_roles *roles, struct br_error *err);
+
+/* The column of a heading or a position; BR_NO_ROW: there is none. */
+size_t br_roles_find_column(const struct br_roles *roles, const char *text, size_t length);
+
+/* Refuses a column that is not there, with the option that asks for it. */
+enum br_status br_roles_refuse_column(const struct br_roles *roles, const char *option,
+                                      const char *text, size_t length, struct br_error *err);
+
+/* Reads the numbers of all columns, or of one again: of rows that are not left aside. */
+enum br_status br_roles_take_numbers(struct br_roles *roles, struct br_error *err);
+void br_roles_read_column(struct br_roles *roles, size_t column);
+
+/* Keeps the rows of the case that --where names. */
+enum br_status br_roles_take_where(struct br_roles *roles, struct br_error *err);
+
+/* Finds the columns that tell cases apart, and the case of each row (cases.c). */
+enum br_status br_roles_find_cases(struct br_roles *roles, struct br_error *err);
+
+/* Of repeated runs the mean counts, of adaptive meshes the last (repeats.c). */
+enum br_status br_roles_take_repeats(struct br_roles *roles, struct br_error *err);
+
 /* A column that may state a resolution. */
 struct br_candidate {
     struct br_size size;

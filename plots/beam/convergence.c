@@ -118,14 +118,14 @@ static void say_orders(const struct br_report *r, enum br_part part, char text[2
     char number[64];
     br_append(strcpy(text, ""), 256, "%s: order", br_part_names[part]);
     for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_seen_order *o = &r->seen[part][axis];
+        const struct br_observed_order *o = &r->observed[part][axis];
         if (!o->points)
             continue;
-        const bool seen = isfinite(o->order.value);
-        const bool other = seen && strcmp(o->by, r->seen[BR_PART_TOTAL][axis].by) != 0;
+        const bool observed = isfinite(o->order.value);
+        const bool other = observed && strcmp(o->by, r->observed[BR_PART_TOTAL][axis].by) != 0;
         br_append(text, 256, "%s in %s %s%s%s", text[strlen(text) - 1] == 'r' ? "" : ",",
                   br_axis_letters[axis],
-                  seen ? br_order_text(&o->order, number, sizeof number) : "not measurable",
+                  observed ? br_order_text(&o->order, number, sizeof number) : "not measurable",
                   other ? " by " : "", other ? o->by : "");
     }
 }
@@ -158,12 +158,12 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
 
 static bool has_orders(const struct br_report *r)
 {
-    return r->seen[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
-           r->seen[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
+    return r->observed[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
+           r->observed[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
 }
 
 /* The errors, the fitted line, and its band. Returns the errors. */
-static const struct br_series *add_order(const struct br_seen_order *o, const char *name,
+static const struct br_series *add_order(const struct br_observed_order *o, const char *name,
                                          struct br_figure *f)
 {
     const struct br_fitted_series s = br_fitted_series_add(f, name);
@@ -182,7 +182,7 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
     const enum br_part parts = both ? BR_PARTS : 1;
     const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
-    const struct br_seen_order *total = &r->seen[BR_PART_TOTAL][axis];
+    const struct br_observed_order *total = &r->observed[BR_PART_TOTAL][axis];
     struct br_panel *p = add_panel(r, (int)axis, f);
     const struct br_series *line[BR_PARTS];
     BR_SAY(p->y_label, "%s, or difference (%s)", s->norm->symbol, s->norm->unit_markup);
@@ -191,9 +191,9 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     for (size_t i = 0; i < total->points; i++)
         br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
     for (enum br_part part = 0; part < parts; part++)
-        line[part] = add_order(&r->seen[part][axis], br_part_names[part], f);
+        line[part] = add_order(&r->observed[part][axis], br_part_names[part], f);
     for (enum br_part part = 0; part < parts; part++)
-        br_slope_add(f, line[part], r->seen[part][axis].theory.formal);
+        br_slope_add(f, line[part], r->observed[part][axis].theory.formal);
 }
 
 static void fill_orders(const struct br_report *r, struct br_figure *f)
@@ -204,7 +204,7 @@ static void fill_orders(const struct br_report *r, struct br_figure *f)
     for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++)
         say_orders(r, part, f->note[part]);
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
-        if (r->seen[BR_PART_TOTAL][axis].points)
+        if (r->observed[BR_PART_TOTAL][axis].points)
             add_orders(r, axis, f);
 }
 
@@ -278,11 +278,11 @@ struct br_figure br_convergence_draw(const struct br_convergence_picture *pictur
     struct br_figure f = {.hollow = "not in the fits"};
     BR_SAY(f.stem, "%.400s-%s", r->name, picture->name);
     BR_SAY(f.title, "%s. %s", r->caption, picture->short_title);
-    if (study->judge->nests)
+    if (study->reference_kind->nests)
         BR_SAY(f.about, "%s Reference: n = %zu elements, N = %zu steps", picture->title,
                study->reference.n, study->reference.steps);
     else
-        BR_SAY(f.about, "%s Reference: %.120s", picture->title, study->judge->title);
+        BR_SAY(f.about, "%s Reference: %.120s", picture->title, study->reference_kind->title);
     picture->fill(r, &f);
     return f;
 }

@@ -29,7 +29,7 @@ struct trial {
 enum { REMEMBERED = 8 };
 
 struct br_step_checker {
-    struct br_watched seen;
+    struct br_watched watched;
     struct trial trial[2]; /* by br_field_kind */
     struct tip_path path;
     struct br_certificate worst;  /* since the last call */
@@ -47,8 +47,8 @@ static const struct br_certificate not_good = {NAN, NAN, NAN, NAN, NAN};
 static double time_error(const struct br_step_checker *w, const struct br_march_stage *stage,
                          real tau, real c)
 {
-    const double slack = 1e-12 * w->seen.scene->duration;
-    const double begun = fabs(stage->from - w->seen.field[stage->kind].began) - slack;
+    const double slack = 1e-12 * w->watched.scene->duration;
+    const double begun = fabs(stage->from - w->watched.field[stage->kind].began) - slack;
     const double at = (double)fabsl(stage->time - (stage->from + c * (real)stage->k)) - slack;
     const double step = (double)fabsl(stage->tau - tau);
     return br_worse_of(0, br_worse_of(begun, br_worse_of(at, step))) / stage->k;
@@ -58,9 +58,9 @@ static double time_error(const struct br_step_checker *w, const struct br_march_
 
 static void path_stage(struct br_step_checker *w, const struct br_march_stage *stage)
 {
-    const struct br_watched_field *f = &w->seen.field[BR_AXIAL];
+    const struct br_watched_field *f = &w->watched.field[BR_AXIAL];
     struct tip_path *p = &w->path;
-    const size_t tip = w->seen.n * br_step_unknowns(w->seen.method, BR_AXIAL);
+    const size_t tip = w->watched.n * br_step_unknowns(w->watched.method, BR_AXIAL);
     const struct br_nodal *now = &f->y.row[f->last];
     if (stage->index == 0)
         *p = (struct tip_path){.from = stage->from,
@@ -116,7 +116,7 @@ static struct br_step_field stage_after(const struct br_nodal *before,
 
 static void remember(struct br_step_checker *w, enum br_field_kind kind)
 {
-    const struct br_watched_field *f = &w->seen.field[kind];
+    const struct br_watched_field *f = &w->watched.field[kind];
     double *most = &w->speed[kind][f->steps % REMEMBERED];
     for (size_t i = 0; i < f->y.size; i++) {
         *most = br_worse_of(fabs(f->y.past[0].velocity[i]), *most);
@@ -138,11 +138,11 @@ static double largest_of(const double remembered[REMEMBERED])
  * the stage's tau, and some solvers leave a residual of their own. */
 static struct br_certificate excess_of(const struct br_step_checker *w, enum br_field_kind kind)
 {
-    const struct br_method *method = w->seen.method;
+    const struct br_method *method = w->watched.method;
     struct br_certificate then = w->limits;
     struct br_certificate now =
-        br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->seen.march));
-    const double own = br_method_residual(method, br_march_field(w->seen.march, kind));
+        br_certificate_limits(method->scheme, w->watched.n, br_march_round_off(w->watched.march));
+    const double own = br_method_residual(method, br_march_field(w->watched.march, kind));
     now.axial_residual += own;
     now.bending_residual += own;
     double *excess = br_certificate_entries(&now), *first = br_certificate_entries(&then);
@@ -154,8 +154,8 @@ static struct br_certificate excess_of(const struct br_step_checker *w, enum br_
 /* What the mass adds to the predicted round-off of a field, at the stage's tau. */
 static double inertia_round_off(const struct br_step_checker *w, enum br_field_kind kind)
 {
-    const struct br_method *method = w->seen.method;
-    const struct br_field *field = br_march_field(w->seen.march, kind);
+    const struct br_method *method = w->watched.method;
+    const struct br_field *field = br_march_field(w->watched.march, kind);
     struct br_field massless = *field;
     massless.density = 0;
     return br_method_round_off(method, field) - br_method_round_off(method, &massless);
@@ -164,36 +164,37 @@ static double inertia_round_off(const struct br_step_checker *w, enum br_field_k
 static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *stage,
                                      const double *axial_tip)
 {
-    const struct br_watched *seen = &w->seen;
+    const struct br_watched *watched = &w->watched;
     double size_now[2] = {0, 0};
     struct br_checked_step step = {
-        .scene = seen->scene,
-        .method = seen->method,
-        .n = seen->n,
+        .scene = watched->scene,
+        .method = watched->method,
+        .n = watched->n,
         .k = stage->tau,
-        .compliance = {br_march_compliance(w->seen.march, BR_AXIAL),
-                       br_march_compliance(w->seen.march, BR_BENDING)},
+        .compliance = {br_march_compliance(w->watched.march, BR_AXIAL),
+                       br_march_compliance(w->watched.march, BR_BENDING)},
         .axial_tip = axial_tip,
-        .tip = *br_march_tip(w->seen.march),
+        .tip = *br_march_tip(w->watched.march),
         .largest = w->largest,
         .speed = {largest_of(w->speed[BR_AXIAL]), largest_of(w->speed[BR_BENDING])},
         .size = {largest_of(w->size[BR_AXIAL]), largest_of(w->size[BR_BENDING])},
         .size_now = size_now,
         .inertia_round_off = inertia_round_off(w, stage->kind)};
-    const struct br_watched_field *own = &seen->field[stage->kind], *rod = &seen->field[BR_AXIAL];
+    const struct br_watched_field *own = &watched->field[stage->kind],
+                                  *rod = &watched->field[BR_AXIAL];
     step.field[stage->kind] = stage_after(&own->y.start, own);
     /* The bound's round-off depends on the axial field, whose step may be complete. */
     if (stage->kind == BR_BENDING)
         step.field[BR_AXIAL] = stage_after(&rod->y.past[0], rod);
     struct br_certificate excess = excess_of(w, stage->kind);
     struct br_certificate c = br_certify_field(&step, stage->kind);
-    double *size = &w->size[stage->kind][seen->field[stage->kind].steps % REMEMBERED];
+    double *size = &w->size[stage->kind][watched->field[stage->kind].steps % REMEMBERED];
     *size = br_worse_of(size_now[stage->kind], *size);
     for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
         br_certificate_entries(&c)[i] /= br_certificate_entries(&excess)[i];
     double distance[BR_MOST_BRANCHES];
     const int branches =
-        seen->method->scheme->adaptive ? br_branch_distances(&step, stage->kind, distance) : 0;
+        watched->method->scheme->adaptive ? br_branch_distances(&step, stage->kind, distance) : 0;
     const double by = stage->kind == BR_AXIAL ? excess.contact : excess.friction;
     for (int i = 0; i < branches; i++)
         distance[i] /= by;
@@ -210,8 +211,8 @@ static void watch_stage(void *self, const struct br_march_stage *stage)
     struct trial *trial = &w->trial[stage->kind];
     if (stage->index == 0)
         *trial = (struct trial){0};
-    const real tau = br_watched_stage(&w->seen, stage);
-    const int row = w->seen.field[stage->kind].last;
+    const real tau = br_watched_stage(&w->watched, stage);
+    const int row = w->watched.field[stage->kind].last;
     if (row < 0) {
         trial->worst = not_good;
         return;
@@ -220,10 +221,10 @@ static void watch_stage(void *self, const struct br_march_stage *stage)
     double axial_tip = 0;
     if (stage->kind == BR_AXIAL)
         path_stage(w, stage);
-    else if (w->seen.scene->axial.modelled)
+    else if (w->watched.scene->axial.modelled)
         axial_tip = tip_path_at(&w->path, stage->time);
     struct br_certificate c = certify(w, stage, stage->kind == BR_AXIAL ? NULL : &axial_tip);
-    const struct br_textbook *t = br_watched_textbook(&w->seen, stage->kind);
+    const struct br_textbook *t = br_watched_textbook(&w->watched, stage->kind);
     c.update = br_worse_of(time_error(w, stage, tau, t->rows > 0 ? t->c[row] : 1), c.update);
     br_certificate_merge(&trial->worst, &c);
 }
@@ -231,9 +232,9 @@ static void watch_stage(void *self, const struct br_march_stage *stage)
 static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
     struct br_step_checker *w = self;
-    br_watched_step(&w->seen, kind, switched);
-    w->speed[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
-    w->size[kind][w->seen.field[kind].steps % REMEMBERED] = 0;
+    br_watched_step(&w->watched, kind, switched);
+    w->speed[kind][w->watched.field[kind].steps % REMEMBERED] = 0;
+    w->size[kind][w->watched.field[kind].steps % REMEMBERED] = 0;
     br_certificate_merge(&w->worst, &w->trial[kind].worst);
     w->any = true;
 }
@@ -256,7 +257,7 @@ enum br_status br_step_checker_create(struct br_step_checker **out, struct br_ma
     w->limits = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
                                       br_march_round_off(march));
     const struct br_march_watcher watcher = {w, watch_stage, watch_step};
-    const enum br_status status = br_watched_init(&w->seen, march, scene, method, &watcher, err);
+    const enum br_status status = br_watched_init(&w->watched, march, scene, method, &watcher, err);
     if (status) {
         br_step_checker_free(w);
         *out = NULL;
@@ -268,6 +269,6 @@ void br_step_checker_free(struct br_step_checker *w)
 {
     if (!w)
         return;
-    br_watched_clear(&w->seen);
+    br_watched_clear(&w->watched);
     free(w);
 }

@@ -148,7 +148,7 @@ struct meter_field {
 };
 
 struct br_energy_meter {
-    struct br_watched seen;
+    struct br_watched watched;
     struct meter_field field[2]; /* by br_field_kind */
     double limit, worst;         /* of the imbalance; worst: since the last call */
     double update;               /* what a certificate allows the displacement's update */
@@ -182,12 +182,12 @@ static real norm(const struct br_field *f, enum br_element_matrix matrix, const 
  *     |v| (a (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|) + |r_tip|)  in the norms of K,
  *     |v - Z_v| (|v| + |Z_v|) / tau                                            in those of M,
  * and so is what rounding the stage's update does to <v, w> and <v', v>; |Z_w| <= |w| + tau |v|. */
-static real residual_power(const struct br_field *f, const struct br_watched_field *seen, real tau,
-                           real bent_speed, real tip_force)
+static real residual_power(const struct br_field *f, const struct br_watched_field *watched,
+                           real tau, real bent_speed, real tip_force)
 {
     const real length = (real)f->h * f->n;
     const real tip = tip_force * sqrtl(f->kind == BR_AXIAL ? length : length * length * length / 3);
-    const struct br_nodal *y = &seen->y.row[seen->last], *z = &seen->y.start;
+    const struct br_nodal *y = &watched->y.row[watched->last], *z = &watched->y.start;
     const real w = norm(f, BR_STIFFNESS, y->displacement), v = bent_speed,
                before = norm(f, BR_STIFFNESS, z->velocity);
     const real moving = norm(f, BR_MASS, y->velocity) + norm(f, BR_MASS, z->velocity);
@@ -200,35 +200,35 @@ static real residual_power(const struct br_field *f, const struct br_watched_fie
  * residual beyond it. */
 static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
 {
-    const struct br_method *method = m->seen.method;
+    const struct br_method *method = m->watched.method;
     const double own = br_method_residual(method, f);
-    const double now = br_energy_limit(f->n, br_march_round_off(m->seen.march)) + own;
+    const double now = br_energy_limit(f->n, br_march_round_off(m->watched.march)) + own;
     return fmax(1, now / m->limit);
 }
 
 static struct power power_of(const struct br_energy_meter *m, enum br_field_kind kind, real tau)
 {
     const struct meter_field *f = &m->field[kind];
-    const struct br_watched_field *seen = &m->seen.field[kind];
-    const struct br_tip *tip = br_march_tip(m->seen.march);
-    const double *v = seen->y.row[seen->last].velocity;
+    const struct br_watched_field *watched = &m->watched.field[kind];
+    const struct br_tip *tip = br_march_tip(m->watched.march);
+    const double *v = watched->y.row[watched->last].velocity;
     const real bent = product(&f->field, BR_STIFFNESS, v, v);
     const double force = tip->force[kind];
     struct power p = {
         .viscous = (real)f->field.viscosity * bent,
         .residual =
-            excess_of(m, &f->field) * residual_power(&f->field, seen, tau, sqrtl(bent), force),
+            excess_of(m, &f->field) * residual_power(&f->field, watched, tau, sqrtl(bent), force),
         .tip = (real)force * v[f->field.n * br_field_unknowns(&f->field)],
     };
-    p.load = dot(seen->load, v, br_field_size(&f->field), &p.load_size);
+    p.load = dot(watched->load, v, br_field_size(&f->field), &p.load_size);
     return p;
 }
 
 static void watch_stage(void *self, const struct br_march_stage *stage)
 {
     struct br_energy_meter *m = self;
-    const real tau = br_watched_stage(&m->seen, stage);
-    const int row = m->seen.field[stage->kind].last;
+    const real tau = br_watched_stage(&m->watched, stage);
+    const int row = m->watched.field[stage->kind].last;
     if (row >= 0)
         m->field[stage->kind].row[row] = power_of(m, stage->kind, tau);
     m->field[stage->kind].k = stage->k;
@@ -255,14 +255,14 @@ static void add(struct sum *s, real term)
 }
 
 /* Row i's Y' = (w', v'); a row with c = 0 is the step's beginning. */
-static const struct br_nodal *row_of(const struct br_watched_field *seen,
+static const struct br_nodal *row_of(const struct br_watched_field *watched,
                                      const struct br_textbook *t, int i)
 {
-    return t->c[i] == 0 ? &seen->y.past[0] : &seen->y.row[i];
+    return t->c[i] == 0 ? &watched->y.past[0] : &watched->y.row[i];
 }
 
 /* k^2/2 sum_i <Y'_i, sum_j m_ij Y'_j>,  m_ij = b_i a_ij + b_j a_ji - b_i b_j */
-static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watched_field *seen,
+static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watched_field *watched,
                                     const struct br_textbook *t)
 {
     struct sum taken = {0, 0};
@@ -272,7 +272,7 @@ static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watch
         for (size_t x = 0; x < size; x++) {
             real z[2] = {0, 0};
             for (int j = 0; j < t->rows; j++) {
-                const struct br_nodal *y = row_of(seen, t, j);
+                const struct br_nodal *y = row_of(watched, t, j);
                 const real weight = b[i] * t->a[i][j] + b[j] * t->a[j][i] - b[i] * b[j];
                 z[0] += weight * y->velocity[x];
                 z[1] += weight * y->acceleration[x];
@@ -280,7 +280,7 @@ static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watch
             m->scratch[0][x] = (double)z[0];
             m->scratch[1][x] = (double)z[1];
         }
-        const struct br_nodal *y = row_of(seen, t, i);
+        const struct br_nodal *y = row_of(watched, t, i);
         const double *const rate[2] = {y->velocity, y->acceleration};
         add(&taken, m->k * m->k / 2 * inner(&m->field, rate, (const double *const *)m->scratch));
     }
@@ -288,11 +288,12 @@ static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watch
 }
 
 /* The backward difference d^order of the displacement or the velocity. */
-static void difference(const struct br_watched_field *seen, int order, bool velocity, double *out)
+static void difference(const struct br_watched_field *watched, int order, bool velocity,
+                       double *out)
 {
     static const int binomial[4][4] = {{1}, {1, -1}, {1, -2, 1}, {1, -3, 3, -1}};
-    const struct br_nodal *now = &seen->y.row[0], *past = seen->y.past;
-    for (size_t x = 0; x < seen->y.size; x++) {
+    const struct br_nodal *now = &watched->y.row[0], *past = watched->y.past;
+    for (size_t x = 0; x < watched->y.size; x++) {
         real sum = velocity ? now->velocity[x] : now->displacement[x];
         for (int i = 1; i <= order; i++)
             sum += binomial[order][i] *
@@ -302,16 +303,16 @@ static void difference(const struct br_watched_field *seen, int order, bool velo
 }
 
 /* 1/2 |d Y|^2 + sum <Y_n, d^j Y / j>, j = 2, ... */
-static struct sum differences_take(struct meter_field *m, const struct br_watched_field *seen,
+static struct sum differences_take(struct meter_field *m, const struct br_watched_field *watched,
                                    const struct br_textbook *t)
 {
     struct sum taken = {0, 0};
-    const struct br_nodal *y = &seen->y.row[0];
+    const struct br_nodal *y = &watched->y.row[0];
     const double *const now[2] = {y->displacement, y->velocity};
     const double *const *d = (const double *const *)m->scratch;
     for (int order = 1; order <= t->back; order++) {
-        difference(seen, order, false, m->scratch[0]);
-        difference(seen, order, true, m->scratch[1]);
+        difference(watched, order, false, m->scratch[0]);
+        difference(watched, order, true, m->scratch[1]);
         add(&taken, inner(&m->field, order == 1 ? d : now, d) / (order == 1 ? 2 : order));
     }
     return taken;
@@ -352,11 +353,11 @@ static double relative(real a, real size)
  * velocity it starts with. The certificate allows the update an error relative to |w| + k |v|. The
  * stored energy then has an error of that times |k v| |w|, J, in the norms of K. */
 static real noise_of_increments(const struct br_energy_meter *m, const struct meter_field *f,
-                                const struct br_watched_field *seen)
+                                const struct br_watched_field *watched)
 {
-    const real speeds = norm(&f->field, BR_STIFFNESS, seen->y.past[0].velocity) +
-                        norm(&f->field, BR_STIFFNESS, seen->y.start.velocity);
-    const real size = norm(&f->field, BR_STIFFNESS, seen->y.row[seen->last].displacement);
+    const real speeds = norm(&f->field, BR_STIFFNESS, watched->y.past[0].velocity) +
+                        norm(&f->field, BR_STIFFNESS, watched->y.start.velocity);
+    const real size = norm(&f->field, BR_STIFFNESS, watched->y.row[watched->last].displacement);
     return (real)m->update * (real)f->field.stiffness * f->k * speeds * size;
 }
 
@@ -374,21 +375,21 @@ static real scale_of(struct br_energy_meter *m, struct meter_field *f, real size
 static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
 {
     struct meter_field *f = &m->field[kind];
-    const struct br_watched_field *seen = &m->seen.field[kind];
-    const struct br_textbook *t = br_watched_textbook(&m->seen, kind);
-    const struct br_nodal *y = &seen->y.row[seen->last];
+    const struct br_watched_field *watched = &m->watched.field[kind];
+    const struct br_textbook *t = br_watched_textbook(&m->watched, kind);
+    const struct br_nodal *y = &watched->y.row[watched->last];
     const struct field_energy before = f->now;
     const real tip_before = f->work.tip;
     const struct sum works = add_works(f, t);
     const struct sum taken =
-        t->rows > 0 ? runge_kutta_takes(f, seen, t) : differences_take(f, seen, t);
-    f->now = energy_of_field(&f->field, &m->seen.scene->contact, y->displacement, y->velocity);
+        t->rows > 0 ? runge_kutta_takes(f, watched, t) : differences_take(f, watched, t);
+    f->now = energy_of_field(&f->field, &m->watched.scene->contact, y->displacement, y->velocity);
     const real contact =
         kind == BR_BENDING ? 0 : f->work.tip - tip_before - (f->now.contact - before.contact);
     const real size = scale_of(m, f,
                                works.size + taken.size + total(&f->now) + total(&before) +
                                    f->now.contact + before.contact,
-                               noise_of_increments(m, f, seen));
+                               noise_of_increments(m, f, watched));
     f->work.scheme += taken.value;
     f->work.contact += contact;
     f->work.noise += m->limit * size;
@@ -397,18 +398,18 @@ static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
         f->work.gaining++;
         f->work.gained -= taken.value + contact;
     }
-    f->before = f->row[seen->last];
+    f->before = f->row[watched->last];
     return relative(total(&f->now) - total(&before) - works.value + taken.value, size);
 }
 
 static void watch_step(void *self, enum br_field_kind kind, bool switched)
 {
     struct br_energy_meter *m = self;
-    const double imbalance = m->seen.field[kind].last < 0 ? NAN : add_step(m, kind);
+    const double imbalance = m->watched.field[kind].last < 0 ? NAN : add_step(m, kind);
     if (isnan(imbalance) || imbalance > m->worst)
         m->worst = imbalance;
     m->any = true;
-    br_watched_step(&m->seen, kind, switched);
+    br_watched_step(&m->watched, kind, switched);
 }
 
 /* ---- setting up ---- */
@@ -418,16 +419,17 @@ static enum br_status set_up(struct br_energy_meter *m, enum br_field_kind kind,
                              struct br_error *err)
 {
     struct meter_field *f = &m->field[kind];
-    const struct br_nodal *y = &m->seen.field[kind].y.past[0];
-    f->field = br_field_of_scene(m->seen.scene, kind, m->seen.n, NAN, m->seen.method->axial_degree);
+    const struct br_nodal *y = &m->watched.field[kind].y.past[0];
+    f->field = br_field_of_scene(m->watched.scene, kind, m->watched.n, NAN,
+                                 m->watched.method->axial_degree);
     const size_t size = br_field_size(&f->field);
     f->scratch[0] = br_allocate(2 * size, sizeof *f->scratch[0]);
     if (!f->scratch[0])
         return br_no_memory(err, "the energies");
     f->scratch[1] = f->scratch[0] + size;
-    if (br_march_models(m->seen.march, kind))
+    if (br_march_models(m->watched.march, kind))
         f->start = f->now =
-            energy_of_field(&f->field, &m->seen.scene->contact, y->displacement, y->velocity);
+            energy_of_field(&f->field, &m->watched.scene->contact, y->displacement, y->velocity);
     return BR_OK;
 }
 
@@ -443,7 +445,7 @@ enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_ma
     m->limit = br_energy_limit(n, round_off);
     m->update = br_certificate_limits(method->scheme, n, round_off).update;
     const struct br_march_watcher watcher = {m, watch_stage, watch_step};
-    enum br_status status = br_watched_init(&m->seen, march, scene, method, &watcher, err);
+    enum br_status status = br_watched_init(&m->watched, march, scene, method, &watcher, err);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         status = set_up(m, kind, err);
     if (status) {
@@ -457,7 +459,7 @@ void br_energy_meter_free(struct br_energy_meter *m)
 {
     if (!m)
         return;
-    br_watched_clear(&m->seen);
+    br_watched_clear(&m->watched);
     free(m->field[BR_AXIAL].scratch[0]);
     free(m->field[BR_BENDING].scratch[0]);
     free(m);

@@ -25,7 +25,7 @@ enum { INSTANTS = sizeof inside / sizeof *inside };
  * The elements are the same, and the finer solution has at least as many polynomials on each: the
  * other one's modes are sums of its modes. Both are compared in these. */
 struct pair {
-    const struct br_outline *outline;
+    const struct br_data_mesh *data_mesh;
     const struct br_oscillators *field[2];
     const struct br_exact_law *law[2];
     const struct br_history *track[2];
@@ -47,10 +47,10 @@ static void build_bridge(struct pair *p, double *row, double *turned)
         for (size_t k = 0; k < m; k++)
             turned[k * m + i] = fine->curve[i * m + k];
     for (size_t i = 0; i < coarse->count; i++)
-        for (size_t e = 0; e < fine->pieces.count; e++)
-            memcpy(&row[i * m + br_pieces_at(&fine->pieces, e, 0)],
-                   &coarse->curve[i * coarse->count + br_pieces_at(&coarse->pieces, e, 0)],
-                   coarse->pieces.terms[e] * sizeof *row);
+        for (size_t e = 0; e < fine->spectral.count; e++)
+            memcpy(&row[i * m + br_spectral_at(&fine->spectral, e, 0)],
+                   &coarse->curve[i * coarse->count + br_spectral_at(&coarse->spectral, e, 0)],
+                   coarse->spectral.terms[e] * sizeof *row);
     br_combine(coarse->count, m, row, m, turned, p->bridge);
 }
 
@@ -114,7 +114,7 @@ static bool is_smooth(const struct pair *p, double t, double duration)
 {
     return t == duration || (!in_layer(p->track[0], t, layer * duration) &&
                              !in_layer(p->track[1], t, layer * duration) &&
-                             !br_outline_is_sharp(p->outline, t, layer * duration));
+                             !br_data_mesh_is_sharp(p->data_mesh, t, layer * duration));
 }
 
 static void compare_at(struct pair *p, double t, double duration, struct br_exact_report *report)
@@ -199,8 +199,8 @@ static enum br_status compare_field(struct pair *p, double duration, struct br_e
 /* Fills exact->report with the size of exact->solution and its distance to another, infinite where
  * their events differ. Its work counts. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
 static enum br_status compare(struct br_exact *exact, const struct br_exact_solution *other,
-                              const struct br_outline outline[BR_FIELDS], struct br_effort *effort,
-                              struct br_error *err)
+                              const struct br_data_mesh data_mesh[BR_FIELDS],
+                              struct br_effort *effort, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t which = 0; which < BR_FIELDS && !status; which++) {
@@ -208,7 +208,7 @@ static enum br_status compare(struct br_exact *exact, const struct br_exact_solu
         *report = (struct br_exact_report){0};
         if (!exact->solution->track[which])
             continue;
-        struct pair p = {.outline = &outline[which]};
+        struct pair p = {.data_mesh = &data_mesh[which]};
         report->modes = exact->solution->field[which]->modes.count;
         report->steps = exact->solution->track[which]->steps;
         exact->noise[which] = 1e-13 * exact->solution->track[which]->free_velocity;
@@ -350,11 +350,11 @@ struct search {
     struct br_exact *exact;
     const struct br_scene *scene;
     const struct br_exact_options *o;
-    struct br_outline outline[BR_FIELDS];
+    struct br_data_mesh data_mesh[BR_FIELDS];
     struct br_effort effort;
     size_t round, modes; /* of the next solution */
     struct br_exact_solution *before;
-    double missed;              /* the largest of the outlines */
+    double missed;              /* the largest of the data meshes */
     double worst, worst_before; /* of the last two pairs, infinite where unknown */
     struct br_error cause;      /* why it is unknown */
 };
@@ -389,8 +389,8 @@ static void solution_free(struct br_exact_solution *s)
 static size_t count_modes(const struct search *s, size_t which, size_t modes)
 {
     size_t count = 0;
-    for (size_t e = 0; e + 1 < s->outline[which].end[BR_X].count; e++)
-        count += br_outline_terms(&s->outline[which], e, modes);
+    for (size_t e = 0; e + 1 < s->data_mesh[which].end[BR_X].count; e++)
+        count += br_data_mesh_terms(&s->data_mesh[which], e, modes);
     return count;
 }
 
@@ -402,7 +402,7 @@ static enum br_status solve(struct search *s, enum br_field_kind which,
 {
     const bool finer = s->round % 2;
     const struct br_scene *scene = s->scene;
-    const struct br_outline *outline = &s->outline[which];
+    const struct br_data_mesh *data_mesh = &s->data_mesh[which];
     struct br_exact_law *law = &into->law[which];
     *law = law_of(scene, which, into->track[BR_AXIAL]);
     const struct br_march_options options = {
@@ -411,14 +411,14 @@ static enum br_status solve(struct search *s, enum br_field_kind which,
         .tolerance = s->o->tolerance * (finer ? 0.1 : 0.4),
         .first_step = scene->duration * (finer ? 2e-13 : 1e-12),
         .max_steps = s->o->max_steps,
-        .outline = {outline, law->axial ? &s->outline[BR_AXIAL] : NULL},
+        .data_mesh = {data_mesh, law->axial ? &s->data_mesh[BR_AXIAL] : NULL},
         .effort = &s->effort,
     };
     const double count = (double)count_modes(s, which, s->modes);
     enum br_status status = br_effort_spend(&s->effort, 2e-3 * count * count * count, &s->cause);
     if (!status)
-        status = br_oscillators_create(&into->field[which], scene, outline, s->modes, &into->store,
-                                       &s->cause);
+        status = br_oscillators_create(&into->field[which], scene, data_mesh, s->modes,
+                                       &into->store, &s->cause);
     if (!status)
         status = br_march(into->field[which], law, &options, &into->store, &into->track[which],
                           &s->cause);
@@ -449,7 +449,7 @@ static enum br_status next_round(struct search *s)
     exact->solution = next;
     if (!s->before)
         return BR_OK;
-    status = compare(exact, s->before, s->outline, &s->effort, &s->cause);
+    status = compare(exact, s->before, s->data_mesh, &s->effort, &s->cause);
     s->worst_before = s->worst;
     s->worst = badness(exact, s->o);
     return status;
@@ -509,7 +509,7 @@ static double unproved(const struct search *s, size_t which)
         track && track->impulse > 0
             ? rounding * change * sqrt(track->blurred / BR_STAGES) / track->impulse
             : 0;
-    return s->missed + s->outline[which].proved + blurred;
+    return s->missed + s->data_mesh[which].proved + blurred;
 }
 
 /* No error is stated below what rounding does to a solution: distances below it are those of one
@@ -553,7 +553,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     if (!s->modes)
         return br_fail(err, BR_NOT_FINITE,
                        "no exact solution: the loads and initial data need %zu and %zu elements",
-                       s->outline[0].end[BR_X].count, s->outline[1].end[BR_X].count);
+                       s->data_mesh[0].end[BR_X].count, s->data_mesh[1].end[BR_X].count);
     for (; !status && s->modes && !(s->worst <= enough) && !is_stuck(s); s->round++) {
         status = next_round(s);
         s->modes = next_modes(s);
@@ -574,14 +574,14 @@ static enum br_status refine(struct search *s, struct br_error *err)
     return list_events(s->exact, s->before, err);
 }
 
-static enum br_status outline(struct search *s, struct br_error *err)
+static enum br_status mesh_data(struct search *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (enum br_field_kind which = 0; which < BR_FIELDS && !status; which++) {
         if (!s->scene->field[which].modelled)
             continue;
-        status = br_outline_init(&s->outline[which], s->scene, which, err);
-        s->missed = fmax(s->missed, s->outline[which].missed);
+        status = br_data_mesh_init(&s->data_mesh[which], s->scene, which, err);
+        s->missed = fmax(s->missed, s->data_mesh[which].missed);
     }
     if (!status && !(s->missed <= s->o->acceptable))
         status =
@@ -611,12 +611,12 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
     if (!s.exact)
         return br_no_memory(err, "the exact solution");
     s.exact->duration = scene->duration;
-    status = outline(&s, err);
+    status = mesh_data(&s, err);
     if (!status)
         status = refine(&s, err);
     solution_free(s.before);
     for (enum br_field_kind which = 0; which < BR_FIELDS; which++)
-        br_outline_clear(&s.outline[which]);
+        br_data_mesh_clear(&s.data_mesh[which]);
     if (status)
         br_exact_free(s.exact);
     else

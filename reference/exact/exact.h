@@ -64,7 +64,7 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
                                const struct br_exact_options *options, struct br_error *err);
 void br_exact_free(struct br_exact *exact);
 
-/* All users of a scene share one exact solution while one of them has it: a fine run's auditor and
+/* All users of a scene share one exact solution while one of them has it: a fine run's check and
  * the exact reference beside it need the same one. */
 /* *out: the solution of br_exact_create with at most max_modes modes (0: its default), or the same
  * one that another user has. Give it back before the scene ends. For any thread. Fails like

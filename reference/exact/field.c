@@ -13,7 +13,7 @@ enum { S = BR_STAGES };
 
 size_t br_modes_length(const struct br_modes *modes, size_t order)
 {
-    return br_pieces_at(&modes->pieces, modes->pieces.count, modes->degree - order);
+    return br_spectral_at(&modes->spectral, modes->spectral.count, modes->degree - order);
 }
 
 static void transpose(size_t m, double *a)
@@ -36,7 +36,7 @@ static enum br_status decompose(struct br_modes *modes, struct br_error *err)
     for (size_t j = 0; j < m; j++) {
         b[j * rows + j] = 1;
         for (size_t d = 0; d < modes->degree; d++)
-            br_pieces_integrate(&modes->pieces, d, &b[j * rows]);
+            br_spectral_integrate(&modes->spectral, d, &b[j * rows]);
     }
     br_blas_enter();
     const lapack_int info =
@@ -63,11 +63,11 @@ static enum br_status integrate(struct br_modes *modes, struct br_error *err)
     for (size_t i = 0; c && i < m; i++) {
         memcpy(c, &modes->curve[i * m], m * sizeof *c);
         if (modes->degree > 1) {
-            modes->slope[i] = br_pieces_integral(&modes->pieces, 0, c);
-            br_pieces_integrate(&modes->pieces, 0, c);
+            modes->slope[i] = br_spectral_integral(&modes->spectral, 0, c);
+            br_spectral_integrate(&modes->spectral, 0, c);
         }
-        modes->tip[i] = br_pieces_integral(&modes->pieces, modes->degree - 1, c);
-        br_pieces_integrate(&modes->pieces, modes->degree - 1, c);
+        modes->tip[i] = br_spectral_integral(&modes->spectral, modes->degree - 1, c);
+        br_spectral_integrate(&modes->spectral, modes->degree - 1, c);
         for (size_t k = 0; k < rows; k++)
             modes->function[k * modes->width + i] = c[k];
     }
@@ -80,7 +80,7 @@ enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_st
 {
     if (store->failed)
         return br_no_memory(err, "the modes");
-    const size_t m = modes->count = br_pieces_at(&modes->pieces, modes->pieces.count, 0);
+    const size_t m = modes->count = br_spectral_at(&modes->spectral, modes->spectral.count, 0);
     const size_t lanes = BR_STAGE_LANES, width = (m + lanes - 1) / lanes * lanes;
     modes->width = width;
     modes->degree = degree;
@@ -91,7 +91,7 @@ enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_st
     modes->curve = br_store_take(store, m * m, sizeof *modes->curve);
     modes->tip = br_store_take(store, width, sizeof *modes->tip);
     modes->slope = br_store_take(store, width, sizeof *modes->slope);
-    br_quadrature_init(&modes->quadrature, &modes->pieces, degree, store);
+    br_quadrature_init(&modes->quadrature, &modes->spectral, degree, store);
     if (store->failed)
         return br_no_memory(err, "the modes");
     const enum br_status status = decompose(modes, err);
@@ -102,7 +102,7 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 {
     br_combine(1, modes->count, q, modes->count, modes->curve, c); /* c = U q */
     for (size_t d = 0; d < modes->degree - order; d++)
-        br_pieces_integrate(&modes->pieces, d, c);
+        br_spectral_integrate(&modes->spectral, d, c);
 }
 
 /* ---- the field on its modes ---- */
@@ -172,24 +172,25 @@ static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
 }
 
 enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
-                                     const struct br_outline *outline, size_t modes,
+                                     const struct br_data_mesh *data_mesh, size_t modes,
                                      struct br_store *store, struct br_error *err)
 {
-    const size_t elements = outline->end[BR_X].count - 1;
-    const double power = pow(scene->length, 1 - 2 * (double)outline->degree);
+    const size_t elements = data_mesh->end[BR_X].count - 1;
+    const double power = pow(scene->length, 1 - 2 * (double)data_mesh->degree);
     struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
     size_t *terms = br_store_take(store, elements, sizeof *terms);
     if (!terms)
         return br_no_memory(err, "the modes");
     f->length = scene->length;
-    f->data = outline->data;
-    f->fronts = outline->fronts;
+    f->data = data_mesh->data;
+    f->fronts = data_mesh->fronts;
     f->damping = f->data->viscosity * power;
     f->stiffness = f->data->stiffness * power;
     for (size_t e = 0; e < elements; e++)
-        terms[e] = br_outline_terms(outline, e, modes);
-    br_pieces_init(&f->modes.pieces, f->length, elements, outline->end[BR_X].at, terms, store);
-    enum br_status status = br_modes_init(&f->modes, outline->degree, store, err);
+        terms[e] = br_data_mesh_terms(data_mesh, e, modes);
+    br_spectral_init(&f->modes.spectral, f->length, elements, data_mesh->end[BR_X].at, terms,
+                     store);
+    enum br_status status = br_modes_init(&f->modes, data_mesh->degree, store, err);
     if (status)
         return status;
     const size_t m = f->modes.count, width = f->modes.width, rows = br_modes_length(&f->modes, 0);
@@ -282,7 +283,7 @@ enum br_status br_oscillators_load(const struct br_oscillators *f, const double 
 double br_oscillators_work(const struct br_oscillators *f)
 {
     const double points = (double)f->modes.quadrature.count, m = (double)f->modes.count;
-    const double elements = (double)f->modes.pieces.count;
+    const double elements = (double)f->modes.spectral.count;
     double work = 4 + 0.15 * m;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
         const struct br_product *p = &f->data->load.term[term];

@@ -9,7 +9,7 @@
 #include "solver/proof.h"
 #include "solver/scene.h"
 
-/* ---- elements (pieces.c) ----
+/* ---- elements (spectral.c) ----
  *
  * Elements of a beam, and functions that are a Legendre series on each of them.
  *
@@ -17,7 +17,7 @@
  * xi in [0, 1]: these are orthonormal in x / L. A series has terms[e] + extra coefficients there,
  * where `extra` counts how often functions of terms[e] coefficients were integrated. */
 
-struct br_exact_pieces {
+struct br_spectral_elements {
     double length; /* L, m */
     size_t count;  /* elements, 1 or more */
     double *end;   /* count + 1, m: 0 = end[0] < ... < end[count] = L */
@@ -25,44 +25,46 @@ struct br_exact_pieces {
     size_t *first; /* count + 1: sum of the terms before */
 };
 
-/* Copies end and terms. After a failure, which the store keeps, the pieces are of no use. */
-void br_pieces_init(struct br_exact_pieces *pieces, double length, size_t count, const double *end,
-                    const size_t *terms, struct br_store *store);
+/* Copies end and terms. After a failure, which the store keeps, the spectral elements are of no
+ * use. */
+void br_spectral_init(struct br_spectral_elements *spectral, double length, size_t count,
+                      const double *end, const size_t *terms, struct br_store *store);
 
 /* Where element e's coefficients begin; with e = count, their number. */
-static inline size_t br_pieces_at(const struct br_exact_pieces *p, size_t e, size_t extra)
+static inline size_t br_spectral_at(const struct br_spectral_elements *p, size_t e, size_t extra)
 {
     return p->first[e] + e * extra;
 }
 
 /* h of element e, in units of L. */
-static inline double br_pieces_width(const struct br_exact_pieces *p, size_t e)
+static inline double br_spectral_width(const struct br_spectral_elements *p, size_t e)
 {
     return (p->end[e + 1] - p->end[e]) / p->length;
 }
 
 /* Integral over all x / L of a series. */
-double br_pieces_integral(const struct br_exact_pieces *pieces, size_t extra, const double *c);
+double br_spectral_integral(const struct br_spectral_elements *spectral, size_t extra,
+                            const double *c);
 
 /* c: in, a series with `extra`; out, its integral from x = 0 in x / L, with extra + 1. */
-void br_pieces_integrate(const struct br_exact_pieces *pieces, size_t extra, double *c);
+void br_spectral_integrate(const struct br_spectral_elements *spectral, size_t extra, double *c);
 
 /* ---- quadrature ---- */
 
 struct br_quadrature {
-    const struct br_exact_pieces *pieces; /* borrowed */
-    size_t extra;                   /* of the series */
-    size_t *points;                 /* elements: of its rule */
-    size_t count;                   /* all points */
-    double *x;                      /* count, m: inside of the elements, never at their ends */
-    double *weight;                 /* count: of the rule on [0, 1] */
-    double **table;                 /* elements: points x (terms + extra), p_k at the points */
-    double *value;                  /* count, workspace */
+    const struct br_spectral_elements *spectral; /* borrowed */
+    size_t extra;                                /* of the series */
+    size_t *points;                              /* elements: of its rule */
+    size_t count;                                /* all points */
+    double *x;      /* count, m: inside of the elements, never at their ends */
+    double *weight; /* count: of the rule on [0, 1] */
+    double **table; /* elements: points x (terms + extra), p_k at the points */
+    double *value;  /* count, workspace */
 };
 
 /* After a failure, which the store keeps, the quadrature is of no use. */
-void br_quadrature_init(struct br_quadrature *q, const struct br_exact_pieces *pieces, size_t extra,
-                        struct br_store *store);
+void br_quadrature_init(struct br_quadrature *q, const struct br_spectral_elements *spectral,
+                        size_t extra, struct br_store *store);
 
 /* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
  * against the polynomials. Elements that contain some of `fronts`, points in m where f jumps or
@@ -82,29 +84,30 @@ struct br_piecewise;
 
 /* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
  * BR_SINGULAR. */
-enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_exact_pieces *pieces,
-                                   size_t extra, const struct br_exact_mesh *mesh,
-                                   struct br_store *store, struct br_error *err);
+enum br_status br_piecewise_create(struct br_piecewise **out,
+                                   const struct br_spectral_elements *spectral, size_t extra,
+                                   const struct br_exact_mesh *mesh, struct br_store *store,
+                                   struct br_error *err);
 
 /* c and rest as br_exact_projection_apply has them. For one thread at a time. */
 void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, double *c,
                         double *rest);
 
-/* ---- the outline of the data ----
+/* ---- the mesh of the data ----
  *
  * What is known of a field's data before it is solved: on which elements, and at which steps. It
  * comes from what is proved of a scene's functions (solver/proof.h): where they jump, and meshes on
  * whose cells polynomials represent them, in proportion to their size nearby. A function of which
  * nothing is proved is assumed to be smooth. */
 
-/* ---- one function (sight.c) ---- */
+/* ---- one function (function_mesh.c) ---- */
 
 /* The allowed error of a polynomial, relative to the largest value in its cell, or to the mean if
  * that is larger. */
-#define BR_SIGHT_TOLERANCE 1e-11
+#define BR_MESH_TOLERANCE 1e-11
 
 /* Degree of the polynomials on an element, and of those that the rules over a step integrate. */
-enum { BR_SIGHT_DEGREE = 15 };
+enum { BR_MESH_DEGREE = 15 };
 
 /* Numbers. */
 struct br_list {
@@ -120,28 +123,29 @@ void br_list_sort(struct br_list *list);
 
 /* A bound on the error of a polynomial along one variable in the box; infinite where f is not
  * smooth. */
-double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
-                      size_t degree);
+double br_function_mesh_error(const struct br_function *f, enum br_variable along,
+                              struct br_box box, size_t degree);
 
 /* The mean of |f| over a box of one or two variables, at least half of it where it can be found. */
-double br_sight_mean(const struct br_function *f, struct br_box box);
+double br_function_mesh_mean(const struct br_function *f, struct br_box box);
 
 /* A function and the box where it is needed. The box has one value of a variable that the function
  * does not use, or whose other values do not matter. */
-struct br_sight {
+struct br_function_mesh {
     const struct br_function *f;
     struct br_box box;
-    double mean;   /* br_sight_mean of the box */
+    double mean;   /* br_function_mesh_mean of the box */
     double missed; /* out: share of its integral that cells may hide, in all */
 };
 
 /* Adds the ends of cells inside of a part of the box along each of its variables. For a function
- * of both, guards may move in the part. Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the
- * function is not finite, or BR_NO_MEMORY. */
-enum br_status br_sight_mesh(struct br_sight *sight, struct br_box part, struct br_list ends[2],
-                             struct br_store *store, struct br_error *err);
+ * of both, switching functions may move in the part. Fails with BR_NOT_FINITE: too many,
+ * BR_BAD_INPUT where the function is not finite, or BR_NO_MEMORY. */
+enum br_status br_function_mesh_add(struct br_function_mesh *function_mesh, struct br_box part,
+                                    struct br_list ends[2], struct br_store *store,
+                                    struct br_error *err);
 
-/* ---- all data of a field (outline.c) ---- */
+/* ---- all data of a field (data_mesh.c) ---- */
 
 /* Of the initial displacement, derived degree - 1 times. */
 static inline const struct br_function *br_initial_slope(const struct br_scene_field *field,
@@ -150,9 +154,9 @@ static inline const struct br_function *br_initial_slope(const struct br_scene_f
     return degree == 1 ? &field->displacement : &field->displacement_slope;
 }
 
-struct br_outline {
+struct br_data_mesh {
     const struct br_scene_field *data; /* borrowed */
-    size_t degree;         /* of the field: 1 axial, 2 bending */
+    size_t degree;                     /* of the field: 1 axial, 2 bending */
     struct br_list end[2]; /* by br_variable: of the elements, m, from 0 to L; of cells in time, s,
                               that no step may overlook, from 0 to T */
     struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
@@ -164,22 +168,22 @@ struct br_outline {
 
 /* Clear it even after a failure: BR_NOT_FINITE, the data have details that are too fine,
  * BR_BAD_INPUT where they are not finite, or BR_NO_MEMORY. */
-enum br_status br_outline_init(struct br_outline *outline, const struct br_scene *scene,
-                               enum br_field_kind kind, struct br_error *err);
-void br_outline_clear(struct br_outline *outline);
+enum br_status br_data_mesh_init(struct br_data_mesh *data_mesh, const struct br_scene *scene,
+                                 enum br_field_kind kind, struct br_error *err);
+void br_data_mesh_clear(struct br_data_mesh *data_mesh);
 
 /* The number of polynomials on element e in a solution that would have `modes` on one element. */
-size_t br_outline_terms(const struct br_outline *outline, size_t e, size_t modes);
+size_t br_data_mesh_terms(const struct br_data_mesh *data_mesh, size_t e, size_t modes);
 
 /* Whether the data change so fast within `width` of t that a cell is shorter than that. */
-bool br_outline_is_sharp(const struct br_outline *outline, double t, double width);
+bool br_data_mesh_is_sharp(const struct br_data_mesh *data_mesh, double t, double width);
 
 /* The length of the cell that contains t, infinite where it is the only one; where two meet the
  * later one. */
-double br_outline_cell(const struct br_outline *outline, double t);
+double br_data_mesh_cell(const struct br_data_mesh *data_mesh, double t);
 
 /* How long a step from t may be: not longer than any cell that it touches. */
-double br_outline_reach(const struct br_outline *outline, double t);
+double br_data_mesh_reach(const struct br_data_mesh *data_mesh, double t);
 
 /* ---- a field (field.c) ----
  *
@@ -197,8 +201,8 @@ double br_outline_reach(const struct br_outline *outline, double t);
  * in the mass and in the energy: mode i is s_i times the unit function with the
  * coefficients Y_i, and its derivative of order `degree` has the coefficients U_i. */
 struct br_modes {
-    struct br_exact_pieces pieces;
-    size_t count;     /* m, the pieces' terms */
+    struct br_spectral_elements spectral;
+    size_t count;     /* m, the spectral elements' terms */
     size_t width;     /* m, and zeros up to a multiple of BR_STAGE_LANES */
     size_t degree;    /* 1: axial, 2: bending */
     double *size;     /* s, width: L2 norm of each mode */
@@ -212,7 +216,7 @@ struct br_modes {
     struct br_quadrature quadrature; /* of functions that are tested with shapes */
 };
 
-/* modes: in, with its pieces, all else zero. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+/* modes: in, with its spectral elements, all else zero. Fails with BR_NO_MEMORY or BR_SINGULAR. */
 enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
                              struct br_error *err);
 
@@ -228,25 +232,25 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 
 struct br_oscillators {
     struct br_modes modes;
-    double length;             /* L, m */
-    double *mass;              /* width, kg; behind the modes 1 */
-    double damping, stiffness; /* N s/m, N/m */
+    double length;                     /* L, m */
+    double *mass;                      /* width, kg; behind the modes 1 */
+    double damping, stiffness;         /* N s/m, N/m */
     const struct br_scene_field *data; /* borrowed */
-    bool fronts;               /* the load's jumps move */
-    double *load_space;        /* BR_LOAD_TERMS x width: of the terms whose space part is constant
-                                  in time */
-    double *load_series;       /* BR_STAGES x br_modes_length(0), workspace for one that is not */
-    double *load_sum;          /* BR_STAGES x width, likewise */
-    double *displacement;      /* modes: at t = 0, m */
-    double *velocity;          /* modes: at t = 0, m/s */
+    bool fronts;                       /* the load's jumps move */
+    double *load_space;   /* BR_LOAD_TERMS x width: of the terms whose space part is constant
+                             in time */
+    double *load_series;  /* BR_STAGES x br_modes_length(0), workspace for one that is not */
+    double *load_sum;     /* BR_STAGES x width, likewise */
+    double *displacement; /* modes: at t = 0, m */
+    double *velocity;     /* modes: at t = 0, m/s */
     double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
 };
 
 /* *out (owned by the store). The scene (borrowed, with its functions) must model the field. On the
- * outline's elements, of as many polynomials as it has for `modes`. Fails with BR_NO_MEMORY or
+ * data mesh's elements, of as many polynomials as it has for `modes`. Fails with BR_NO_MEMORY or
  * BR_SINGULAR. */
 enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
-                                     const struct br_outline *outline, size_t modes,
+                                     const struct br_data_mesh *data_mesh, size_t modes,
                                      struct br_store *store, struct br_error *err);
 
 /* out (BR_STAGES x width): load_i(t) at each t, N. *size: out, of loads that no product gives, N:
@@ -272,8 +276,8 @@ enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_
 
 /* ---- the tip (tip.c) ----
  *
- * The laws (10) and (12), one phase at a time. In each phase the law is linear, and a guard
- * measures how far the phase is from its end. */
+ * The laws (10) and (12), one phase at a time. In each phase the law is linear, and a switching
+ * function measures how far the phase is from its end. */
 
 /* The tip along one step; series in p_k((t - start) / length). */
 struct br_tip_step {
@@ -340,8 +344,8 @@ double br_law_bound(const struct br_exact_law *law, double t);
 /* The law at a tip in its phase. */
 struct br_law_state {
     double force;       /* on the tip, N; from the series only where the law does not give it */
-    double guard;       /* distance to the end of the phase: negative when it is over */
-    enum br_phase next; /* the phase that follows when the guard ends it */
+    double switching;   /* distance to the end of the phase: negative when it is over */
+    enum br_phase next; /* the phase that follows when the switching function ends it */
 };
 struct br_law_state br_law_at(const struct br_exact_law *law, double t,
                               const struct br_tip_state *tip);
@@ -405,10 +409,10 @@ void br_stepper_settle(struct br_stepper *s);
 /* ---- the march ---- */
 
 struct br_march_options {
-    double duration;                     /* T, s */
-    const struct br_outline *outline[2]; /* of this field, and NULL or the one that it depends on:
-                                            both limit the steps */
-    double gap;                          /* of the contact, m; 0 for friction */
+    double duration;                         /* T, s */
+    const struct br_data_mesh *data_mesh[2]; /* of this field, and NULL or the one that it depends
+                                            on: both limit the steps */
+    double gap;                              /* of the contact, m; 0 for friction */
     double tolerance;  /* limit of a step's last coefficients, relative to the largest value */
     double first_step; /* s: length of the first step of a phase, always accepted */
     size_t max_steps;

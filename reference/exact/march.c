@@ -27,7 +27,7 @@ enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_
 
 /* ---- the march ---- */
 
-/* A guard this far below zero, of the largest value so far, is round-off. */
+/* A switching function this far below zero, of the largest value so far, is round-off. */
 static const double dead_band = 1e-13;
 
 /* Largest values so far: L2 norms over the beam, and the tip's. */
@@ -36,8 +36,8 @@ struct scale {
     double of[VALUES];
 };
 
-/* The value that a phase's guard monitors. */
-static const int guarded[] = {
+/* The value that a phase's switching function monitors. */
+static const int monitored[] = {
     [BR_FREE] = FORCE,  [BR_OPEN] = TIP_DISPLACEMENT, [BR_CLOSED] = TIP_DISPLACEMENT,
     [BR_STICK] = FORCE, [BR_SLIP_UP] = TIP_VELOCITY,  [BR_SLIP_DOWN] = TIP_VELOCITY,
 };
@@ -106,40 +106,40 @@ static double step_error(const struct march *m, const struct scale *scale)
     return error / m->options->tolerance;
 }
 
-static double guard_at(const struct march *m, double theta)
+static double switching_at(const struct march *m, double theta)
 {
     const struct br_tip_step *tip = &m->s->tip;
     const struct br_tip_state state = br_tip_at(tip, theta);
-    return br_law_at(m->s->law, tip->start + theta * tip->length, &state).guard;
+    return br_law_at(m->s->law, tip->start + theta * tip->length, &state).switching;
 }
 
 /* The first sample, of SAMPLES over the trial step, at which its phase is over;
  * 0 for none. */
 static size_t first_violation(const struct march *m, const struct scale *scale)
 {
-    const double lowest = -dead_band * scale->of[guarded[m->s->phase]];
+    const double lowest = -dead_band * scale->of[monitored[m->s->phase]];
     for (size_t i = 1; i <= SAMPLES; i++)
-        if (guard_at(m, (double)i / SAMPLES) < lowest)
+        if (switching_at(m, (double)i / SAMPLES) < lowest)
             return i;
     return 0;
 }
 
-static double guard_after(double h, void *march)
+static double switching_after(double h, void *march)
 {
     struct march *m = march;
     if (!m->status)
         m->status = br_stepper_try(m->s, h, m->err);
-    return m->status ? 0 : guard_at(m, 1);
+    return m->status ? 0 : switching_at(m, 1);
 }
 
-/* Shortens the trial step to the root of its guard, between `low` and `high`.
- * The guard is that at the end of a step, which is far more accurate than the
+/* Shortens the trial step to the root of its switching function, between `low` and `high`.
+ * The switching function is that at the end of a step, which is far more accurate than the
  * inside of the polynomial. Returns the step's length. */
 static double locate(struct march *m, double low, double high)
 {
     if (!(low > 0))
         low = fmin(high, m->options->first_step) / 16;
-    const double at_low = guard_after(low, m), at_high = guard_after(high, m);
+    const double at_low = switching_after(low, m), at_high = switching_after(high, m);
     if (m->status || !(at_low > 0) || !(at_high < 0))
         return at_low > 0 ? high : low;
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
@@ -147,7 +147,7 @@ static double locate(struct march *m, double low, double high)
         m->status = br_no_memory(m->err, "a root");
         return low;
     }
-    gsl_function f = {guard_after, m};
+    gsl_function f = {switching_after, m};
     gsl_root_fsolver_set(solver, &f, low, high);
     for (int i = 0; i < MAX_ROOT_STEPS && !m->status; i++) {
         gsl_root_fsolver_iterate(solver);
@@ -223,12 +223,12 @@ static void accept(struct march *m, double time)
     m->at_once = 0;
 }
 
-/* The trial step ends where its guard vanishes: how exactly, s. */
+/* The trial step ends where its switching function vanishes: how exactly, s. */
 static double time_error(const struct march *m)
 {
-    const double h = m->s->tip.length, slope = guard_at(m, 0.75) / (0.25 * h);
+    const double h = m->s->tip.length, slope = switching_at(m, 0.75) / (0.25 * h);
     const struct scale scale = trial_scale(m);
-    return dead_band * scale.of[guarded[m->s->phase]] / fabs(slope) +
+    return dead_band * scale.of[monitored[m->s->phase]] / fabs(slope) +
            2 * DBL_EPSILON * (m->s->time + h);
 }
 
@@ -264,8 +264,8 @@ static double reach(const struct march *m)
 {
     double most = INFINITY;
     for (size_t i = 0; i < 2; i++)
-        if (m->options->outline[i])
-            most = fmin(most, br_outline_reach(m->options->outline[i], m->s->time));
+        if (m->options->data_mesh[i])
+            most = fmin(most, br_data_mesh_reach(m->options->data_mesh[i], m->s->time));
     return fmax(most, m->options->first_step);
 }
 
@@ -275,8 +275,8 @@ static double blur(const struct march *m, double h)
     const double t = m->s->time + h / 2;
     double cell = INFINITY;
     for (size_t i = 0; i < 2; i++)
-        if (m->options->outline[i])
-            cell = fmin(cell, br_outline_cell(m->options->outline[i], t));
+        if (m->options->data_mesh[i])
+            cell = fmin(cell, br_data_mesh_cell(m->options->data_mesh[i], t));
     return DBL_EPSILON * t / cell;
 }
 
@@ -353,7 +353,7 @@ static int by_time(const void *a, const void *b)
  * order of time; those that no step fits between are one. Returns their number. */
 static size_t list_changes(const struct march *m, struct change *change)
 {
-    const struct br_breaks *jump = &m->options->outline[0]->jump;
+    const struct br_breaks *jump = &m->options->data_mesh[0]->jump;
     const struct br_history *axial = m->s->law->axial;
     size_t count = 1, kept = 0;
     change[0] = (struct change){{0, 0}, 0};
@@ -387,7 +387,7 @@ static enum br_phase phase_now(const struct march *m)
 static void march_all(struct march *m)
 {
     const struct br_history *axial = m->s->law->axial;
-    const size_t most = 1 + m->options->outline[0]->jump.count + (axial ? axial->entries : 0);
+    const size_t most = 1 + m->options->data_mesh[0]->jump.count + (axial ? axial->entries : 0);
     struct change *change = br_allocate(most, sizeof *change);
     if (!change)
         m->status = br_no_memory(m->err, "the exact solution");

@@ -94,38 +94,41 @@ static enum br_status remainder_add(const struct remainder *m, size_t block, str
 
 /* ---- runs of elements ----
  *
- * Most elements of the mesh lie inside of one piece. A run of them takes two stages: the piece's
- * series on groups of elements, in as many local polynomials as round-off lets matter, and these on
- * the elements, by one table for all groups. What does not fill a group is another run.
+ * Most elements of the mesh lie inside of one spectral element. A run of them takes two stages: the
+ * spectral element's series on groups of elements, in as many local polynomials as round-off lets
+ * matter, and these on the elements, by one table for all groups. What does not fill a group is
+ * another run.
  *
- * The others straddle: each overlap of such an element with a piece is a run of its own, in which
- * the piece's series and the element's polynomials are written in the overlap's polynomials. */
+ * The others straddle: each overlap of such an element with a spectral element is a run of its own,
+ * in which the spectral element's series and the element's polynomials are written in the overlap's
+ * polynomials. */
 
 /* Local coefficients are left out of the tables where the root of the sum of their squares is
  * below this part of the series, and out of a sum at this part of what they are added to. */
 static const double table_tail = 1e-18, sum_tail = 1e-17;
 
-/* An element that reaches this far out of a piece, in units of L, lies inside: round-off. */
+/* An element that reaches this far out of a spectral element, in units of L, lies inside:
+ * round-off. */
 static const long double tolerance = 4e-16L;
 
-struct run {
-    size_t piece, element; /* the first */
-    size_t group, groups;  /* elements in each, and their number */
-    size_t terms;          /* local coefficients of a group that are kept */
-    double *coarse;        /* series x (groups x terms): the piece's series on the groups */
-    double *fine;          /* terms x (group x (degree + 1)); NULL for groups of one element */
-    double *local;         /* groups x terms, workspace */
-    double *kept;          /* of an overlap: (degree + 1) x terms, the element's; else NULL */
+struct element_run {
+    size_t spectral, element; /* the first */
+    size_t group, groups;     /* elements in each, and their number */
+    size_t terms;             /* local coefficients of a group that are kept */
+    double *coarse; /* series x (groups x terms): the spectral element's series on the groups */
+    double *fine;   /* terms x (group x (degree + 1)); NULL for groups of one element */
+    double *local;  /* groups x terms, workspace */
+    double *kept;   /* of an overlap: (degree + 1) x terms, the element's; else NULL */
 };
 
 struct br_piecewise {
-    const struct br_exact_pieces *pieces; /* borrowed */
-    size_t extra, kept;                   /* degree + 1 */
+    const struct br_spectral_elements *spectral; /* borrowed */
+    size_t extra, kept;                          /* degree + 1 */
     size_t elements;
-    struct run *run;
+    struct element_run *run;
     size_t runs, room;
-    double **rest; /* by pieces: series x series, R' with |R series|^2 what the elements inside
-                      leave out; NULL: there are none */
+    double **rest; /* by spectral elements: series x series, R' with |R series|^2 what the elements
+                      inside leave out; NULL: there are none */
     double *work;  /* the longest series */
     struct br_store *store;
 };
@@ -133,17 +136,17 @@ struct br_piecewise {
 /* What the tables are made with. */
 struct making {
     struct br_piecewise *w;
-    struct run *run;
-    long double first, width;         /* of the run's first element, in the piece */
+    struct element_run *run;
+    long double first, width;         /* of the run's first element, in the spectral element */
     struct subinterval series, local; /* the series on a group, and a group's on an element */
     struct remainder group, all;      /* what elements leave out of either */
     struct br_store store;
 };
 
 /* In units of L. */
-static long double piece_end(const struct br_piecewise *w, size_t e)
+static long double spectral_end(const struct br_piecewise *w, size_t e)
 {
-    return (long double)w->pieces->end[e] / w->pieces->length;
+    return (long double)w->spectral->end[e] / w->spectral->length;
 }
 
 static long double node(const struct br_piecewise *w, size_t j)
@@ -151,21 +154,22 @@ static long double node(const struct br_piecewise *w, size_t j)
     return (long double)j / (long double)w->elements;
 }
 
-static size_t piece_terms(const struct br_piecewise *w, size_t e)
+static size_t spectral_terms(const struct br_piecewise *w, size_t e)
 {
-    return w->pieces->terms[e] + w->extra;
+    return w->spectral->terms[e] + w->extra;
 }
 
-/* The norm of a function on an element whose coefficients have the norm 1 on the piece. */
+/* The norm of a function on an element whose coefficients have the norm 1 on the spectral element.
+ */
 static double scale(const struct making *m)
 {
-    return sqrt(m->w->pieces->length * (double)m->width);
+    return sqrt(m->w->spectral->length * (double)m->width);
 }
 
 /* The series on group g. */
 static void move_to(struct making *m, size_t g)
 {
-    const struct run *r = m->run;
+    const struct element_run *r = m->run;
     move(&m->series, m->first + m->width * (long double)(g * r->group),
          m->width * (long double)r->group);
 }
@@ -226,7 +230,7 @@ static size_t count_terms(struct making *m)
  * series c. */
 static enum br_status fill_group(struct making *m, struct br_error *err)
 {
-    const struct run *r = m->run;
+    const struct element_run *r = m->run;
     const size_t terms = m->group.columns, kept = m->w->kept;
     enum br_status status = BR_OK;
     for (size_t j = 0; j < r->group && !status; j++) {
@@ -247,7 +251,7 @@ static enum br_status fill_group(struct making *m, struct br_error *err)
 /* The series on every group: its table, and R_0 times it as what is left out. */
 static enum br_status fill_groups(struct making *m, struct br_error *err)
 {
-    const struct run *r = m->run;
+    const struct element_run *r = m->run;
     const size_t length = m->series.count, terms = m->group.columns;
     const double factor = r->fine ? 1 : scale(m);
     enum br_status status = fill_group(m, err);
@@ -269,9 +273,10 @@ static enum br_status fill_groups(struct making *m, struct br_error *err)
     return status;
 }
 
-static enum br_status keep_run(struct br_piecewise *w, const struct run *r, struct br_error *err)
+static enum br_status keep_run(struct br_piecewise *w, const struct element_run *r,
+                               struct br_error *err)
 {
-    struct run *all = br_store_grow(w->store, w->run, w->runs, &w->room, sizeof *all);
+    struct element_run *all = br_store_grow(w->store, w->run, w->runs, &w->room, sizeof *all);
     if (w->store->failed)
         return br_no_memory(err, "a projection");
     w->run = all;
@@ -280,7 +285,7 @@ static enum br_status keep_run(struct br_piecewise *w, const struct run *r, stru
 }
 
 /* A run of the groups that `elements` fill, from r->element on. */
-static enum br_status add_run(struct making *m, struct run *r, size_t elements,
+static enum br_status add_run(struct making *m, struct element_run *r, size_t elements,
                               struct br_error *err)
 {
     struct br_store *store = m->w->store;
@@ -302,14 +307,14 @@ static enum br_status add_run(struct making *m, struct run *r, size_t elements,
     return status ? status : keep_run(m->w, r, err);
 }
 
-/* ---- all pieces ---- */
+/* ---- all spectral elements ---- */
 
-/* The elements first to last - 1 lie inside of piece e. */
+/* The elements first to last - 1 lie inside of spectral element e. */
 static enum br_status fill_inside(struct br_piecewise *w, size_t e, size_t first, size_t last,
                                   struct br_error *err)
 {
-    const size_t length = piece_terms(w, e);
-    const long double a = piece_end(w, e), h = piece_end(w, e + 1) - a;
+    const size_t length = spectral_terms(w, e);
+    const long double a = spectral_end(w, e), h = spectral_end(w, e + 1) - a;
     struct making m = {.w = w, .first = (node(w, first) - a) / h};
     m.width = (node(w, last) - node(w, first)) / h / (long double)(last - first);
     subinterval_init(&m.series, length, &m.store);
@@ -318,7 +323,7 @@ static enum br_status fill_inside(struct br_piecewise *w, size_t e, size_t first
     enum br_status status =
         m.store.failed || !w->rest[e] ? br_no_memory(err, "a projection") : BR_OK;
     while (first < last && !status) {
-        struct run r = {.piece = e, .element = first};
+        struct element_run r = {.spectral = e, .element = first};
         status = add_run(&m, &r, last - first, err);
         first += r.group * r.groups;
         m.first += m.width * (long double)(r.group * r.groups);
@@ -341,18 +346,18 @@ static void rewrite(struct subinterval *s, const long double part[2], const long
             out[k * s->count + l] = (double)(factor * sqrtl(width) * s->r[k * s->count + l]);
 }
 
-/* The overlap of element j and piece e, from part[0] to part[1]. */
+/* The overlap of element j and spectral element e, from part[0] to part[1]. */
 static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
                                   const long double part[2], struct br_error *err)
 {
-    const size_t length = piece_terms(w, e), terms = length > w->kept ? length : w->kept;
-    const long double piece[2] = {piece_end(w, e), piece_end(w, e + 1)};
+    const size_t length = spectral_terms(w, e), terms = length > w->kept ? length : w->kept;
+    const long double spectral[2] = {spectral_end(w, e), spectral_end(w, e + 1)};
     const long double element[2] = {node(w, j), node(w, j + 1)};
     struct br_store store = {0};
     struct subinterval s;
     subinterval_init(&s, terms, &store);
-    const struct run r = {
-        .piece = e,
+    const struct element_run r = {
+        .spectral = e,
         .element = j,
         .group = 1,
         .groups = 1,
@@ -363,7 +368,7 @@ static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
     };
     enum br_status status = BR_NO_MEMORY;
     if (!store.failed && !w->store->failed) {
-        rewrite(&s, part, piece, sqrtl(w->pieces->length), length, r.coarse);
+        rewrite(&s, part, spectral, sqrtl(w->spectral->length), length, r.coarse);
         rewrite(&s, part, element, 1, w->kept, r.kept);
         status = keep_run(w, &r, err);
     }
@@ -371,27 +376,27 @@ static enum br_status add_overlap(struct br_piecewise *w, size_t j, size_t e,
     return status ? br_no_memory(err, "a projection") : BR_OK;
 }
 
-/* Element j, which begins in piece e and ends in another. */
+/* Element j, which begins in spectral element e and ends in another. */
 static enum br_status straddle(struct br_piecewise *w, size_t j, size_t e, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (; e < w->pieces->count && piece_end(w, e) < node(w, j + 1) && !status; e++) {
-        const long double part[2] = {fmaxl(node(w, j), piece_end(w, e)),
-                                     fminl(node(w, j + 1), piece_end(w, e + 1))};
+    for (; e < w->spectral->count && spectral_end(w, e) < node(w, j + 1) && !status; e++) {
+        const long double part[2] = {fmaxl(node(w, j), spectral_end(w, e)),
+                                     fminl(node(w, j + 1), spectral_end(w, e + 1))};
         if (part[1] > part[0])
             status = add_overlap(w, j, e, part, err);
     }
     return status;
 }
 
-static enum br_status fill_pieces(struct br_piecewise *w, struct br_error *err)
+static enum br_status fill_elements(struct br_piecewise *w, struct br_error *err)
 {
     const size_t n = w->elements;
     enum br_status status = BR_OK;
     for (size_t j = 0, e = 0; j < n && !status;) {
-        while (e + 1 < w->pieces->count && piece_end(w, e + 1) <= node(w, j) + tolerance)
+        while (e + 1 < w->spectral->count && spectral_end(w, e + 1) <= node(w, j) + tolerance)
             e++;
-        const long double inside = (piece_end(w, e + 1) + tolerance) * (long double)n;
+        const long double inside = (spectral_end(w, e + 1) + tolerance) * (long double)n;
         const size_t last = inside < (long double)n ? (size_t)inside : n;
         if (last > j) {
             status = fill_inside(w, e, j, last, err);
@@ -402,21 +407,23 @@ static enum br_status fill_pieces(struct br_piecewise *w, struct br_error *err)
     return status;
 }
 
-enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_exact_pieces *pieces,
-                                   size_t extra, const struct br_exact_mesh *mesh,
-                                   struct br_store *store, struct br_error *err)
+enum br_status br_piecewise_create(struct br_piecewise **out,
+                                   const struct br_spectral_elements *spectral, size_t extra,
+                                   const struct br_exact_mesh *mesh, struct br_store *store,
+                                   struct br_error *err)
 {
     struct br_piecewise *w = *out = br_store_take(store, 1, sizeof *w);
     if (!w)
         return br_no_memory(err, "a projection");
-    *w = (struct br_piecewise){.pieces = pieces,
+    *w = (struct br_piecewise){.spectral = spectral,
                                .extra = extra,
                                .kept = mesh->degree + 1,
                                .elements = mesh->elements,
                                .store = store};
-    w->rest = br_store_take(store, pieces->count, sizeof *w->rest);
-    w->work = br_store_take(store, br_pieces_at(pieces, pieces->count, extra), sizeof *w->work);
-    return store->failed ? br_no_memory(err, "a projection") : fill_pieces(w, err);
+    w->rest = br_store_take(store, spectral->count, sizeof *w->rest);
+    w->work =
+        br_store_take(store, br_spectral_at(spectral, spectral->count, extra), sizeof *w->work);
+    return store->failed ? br_no_memory(err, "a projection") : fill_elements(w, err);
 }
 
 /* ---- the application ---- */
@@ -444,10 +451,10 @@ static size_t significant_terms(const struct br_piecewise *w, size_t rows, size_
 }
 
 /* c: out, of the run's first element on; of an overlap, what it adds. */
-static void apply_run(const struct br_piecewise *w, const struct run *r, const double *series,
-                      double *c)
+static void apply_run(const struct br_piecewise *w, const struct element_run *r,
+                      const double *series, double *c)
 {
-    const size_t length = piece_terms(w, r->piece), kept = w->kept;
+    const size_t length = spectral_terms(w, r->spectral), kept = w->kept;
     br_combine(1, significant_terms(w, 1, length, series), series, r->groups * r->terms, r->coarse,
                r->fine || r->kept ? r->local : c);
     const size_t terms = r->fine ? significant_terms(w, r->groups, r->terms, r->local) : 0;
@@ -460,7 +467,7 @@ static void apply_run(const struct br_piecewise *w, const struct run *r, const d
 }
 
 /* The square of what an element's values c leave out of the overlap. */
-static double left_out(const struct br_piecewise *w, const struct run *r, const double *c)
+static double left_out(const struct br_piecewise *w, const struct element_run *r, const double *c)
 {
     double sum = 0;
     for (size_t l = 0; l < r->terms; l++) {
@@ -473,20 +480,20 @@ static double left_out(const struct br_piecewise *w, const struct run *r, const 
 
 void br_piecewise_apply(struct br_piecewise *w, const double *series, double *c, double *rest)
 {
-    const struct run *end = w->run + w->runs;
-    for (const struct run *r = w->run; r < end; r++)
+    const struct element_run *end = w->run + w->runs;
+    for (const struct element_run *r = w->run; r < end; r++)
         if (r->kept)
             memset(&c[r->element * w->kept], 0, w->kept * sizeof *c);
-    for (const struct run *r = w->run; r < end; r++)
-        apply_run(w, r, series + br_pieces_at(w->pieces, r->piece, w->extra),
+    for (const struct element_run *r = w->run; r < end; r++)
+        apply_run(w, r, series + br_spectral_at(w->spectral, r->spectral, w->extra),
                   &c[r->element * w->kept]);
     *rest = 0;
-    for (const struct run *r = w->run; r < end; r++)
+    for (const struct element_run *r = w->run; r < end; r++)
         if (r->kept)
             *rest += left_out(w, r, &c[r->element * w->kept]);
-    for (size_t e = 0; e < w->pieces->count; e++) {
-        const size_t length = w->rest[e] ? piece_terms(w, e) : 0;
-        br_combine(1, length, series + br_pieces_at(w->pieces, e, w->extra), length, w->rest[e],
+    for (size_t e = 0; e < w->spectral->count; e++) {
+        const size_t length = w->rest[e] ? spectral_terms(w, e) : 0;
+        br_combine(1, length, series + br_spectral_at(w->spectral, e, w->extra), length, w->rest[e],
                    w->work);
         for (size_t k = 0; k < length; k++)
             *rest += w->work[k] * w->work[k];

@@ -196,7 +196,7 @@ static enum br_status projection_init(struct br_exact_projection *p,
             p->expand[i * p->length + k] = scale * longest[k];
         q[i] = 0;
     }
-    return br_piecewise_create(&p->piecewise, &modes->pieces, modes->degree - p->quantity.order,
+    return br_piecewise_create(&p->piecewise, &modes->spectral, modes->degree - p->quantity.order,
                                mesh, &p->store, err);
 }
 

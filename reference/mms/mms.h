@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A given solution, from which a scene is manufactured (study/scene/manufactured.c): its checks,
- * and its judge. */
+ * and its reference. */
 #ifndef BR_REFERENCE_MMS_MMS_H
 #define BR_REFERENCE_MMS_MMS_H
 
@@ -22,8 +22,8 @@ struct br_given {
 /* Refuses (BR_BAD_INPUT), naming the derivative, x, t, what was found and expected:
  * - a solution or derivative of which it is not proved that it is finite everywhere;
  * - u(0, t), w(0, t) or w_x(0, t) that is not zero;
- * - a jump in what is derived, since the derivative would leave out its delta. The guards of
- *   function.h give the points; lines through every interval between them are checked.
+ * - a jump in what is derived, since the derivative would leave out its delta. The switching
+ * functions of function.h give the points; lines through every interval between them are checked.
  * Fails with BR_NO_MEMORY, too. */
 enum br_status br_given_check(const struct br_given *solution, struct br_error *err);
 

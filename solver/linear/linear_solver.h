@@ -136,14 +136,14 @@ extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack;
 /* The solver `plain` in long double: the same recursions with 64 bits in place of 53, and a row
  * that is in no registry. A march by it loses only the rounding of loads and tip forces, which are
  * doubles, so the difference of another march from it is that march's round-off. Whether the
- * equations are right is checked by judges that share nothing with the solver.
+ * equations are right is checked by references that share nothing with the solver.
  *
  * Against quadruple precision it is right to 1e-14 of a field's largest displacement, but to 1e-12
  * where friction holds the tip: the held tip creeps by the rounding of the force. */
 extern const struct br_linear_solver br_long_plain;
 
-/* Whether long double has more digits than double, so that anything can be judged. */
-bool br_long_plain_judges(void);
+/* Whether long double has more digits than double, so that it can check anything. */
+bool br_long_plain_resolves(void);
 
 /* The functions of `plain`, for both fields, and both degrees of the axial one. */
 extern const struct br_field_solver br_plain_form;

@@ -133,7 +133,7 @@ const struct br_field_solver br_plain_form = {
 
 #ifdef BR_LONG
 
-bool br_long_plain_judges(void)
+bool br_long_plain_resolves(void)
 {
     volatile long double one = 1, tiny = DBL_EPSILON / 1024; /* valgrind's has 53 bits */
     return one + tiny > one;

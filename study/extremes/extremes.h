@@ -166,7 +166,7 @@ void br_stability_clear(struct br_stability *s);
 double br_stability_most(const struct br_method *method);
 
 /* What a share of energy means. */
-enum br_stability_outcome br_stability_judge(const struct br_method *method, double share);
+enum br_stability_outcome br_stability_outcome_of(const struct br_method *method, double share);
 
 /* How many points of a plane have an outcome. */
 size_t br_stability_count(const struct br_stability *s, const struct br_stability_plane *plane,

@@ -141,7 +141,7 @@ void br_floors_clear(struct br_floors *f)
 /* ---- a march against the exact discrete solution ---- */
 
 /* The work of a turn: marches that differ only by their solver. */
-struct work {
+struct floors_work {
     struct br_floor *first; /* the others follow, with a stride */
     const struct br_observer *observer;
     double *nodal[2];  /* of the exact discrete solution at the end, by br_field_kind; owned */
@@ -158,7 +158,7 @@ static struct br_method method_of(const struct br_floor *f)
 }
 
 /* Checks so often that on any mesh little time passes between two checks. */
-static bool stopped(const struct work *w, size_t step)
+static bool stopped(const struct floors_work *w, size_t step)
 {
     return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
 }
@@ -171,7 +171,7 @@ static size_t stride_of(enum br_field_kind kind)
 
 /* Takes the displacements of a level. A vibration may have died down at the end: its round-off is
  * that of the times before, so the largest displacement of all levels is the scale. */
-static void take_level(struct work *w, const struct br_march *march)
+static void take_level(struct floors_work *w, const struct br_march *march)
 {
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         br_march_get(march, kind, w->nodal[kind], NULL);
@@ -182,7 +182,7 @@ static void take_level(struct work *w, const struct br_march *march)
 
 /* The same march by `plain` in long double. Where it is refused, or fails, there is nothing to
  * compare with: no values are left. */
-static enum br_status find_exact(struct work *w, struct br_error *err)
+static enum br_status find_exact(struct floors_work *w, struct br_error *err)
 {
     const struct br_floor *f = w->first;
     struct br_method method = method_of(f);
@@ -211,8 +211,8 @@ static enum br_status find_exact(struct work *w, struct br_error *err)
 }
 
 /* Compares nodal displacements. */
-static void compare(const struct work *w, const struct br_march *march, enum br_field_kind kind,
-                    struct br_floor *floor)
+static void compare(const struct floors_work *w, const struct br_march *march,
+                    enum br_field_kind kind, struct br_floor *floor)
 {
     const size_t stride = stride_of(kind), last = stride * floor->n;
     const double *exact = w->nodal[kind], largest = w->largest[kind];
@@ -236,7 +236,8 @@ static double time_error(const struct br_floor *f, const struct br_march *march,
 }
 
 /* A refusal or failure of the solver is stored in floor->refused, but for want of memory. */
-static enum br_status measure(const struct work *w, struct br_floor *floor, struct br_error *err)
+static enum br_status measure(const struct floors_work *w, struct br_floor *floor,
+                              struct br_error *err)
 {
     struct br_march *march;
     bool stop = false;
@@ -276,7 +277,7 @@ static struct br_floor *first_of(const struct br_floors *f, size_t turn)
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct loop *l = self;
-    struct work w = {.first = first_of(l->f, i), .observer = l->observer};
+    struct floors_work w = {.first = first_of(l->f, i), .observer = l->observer};
     if (!w.first->steps)
         return BR_OK;
     w.march = br_allocate(2 * (w.first->n + 1), sizeof *w.march);
@@ -302,7 +303,7 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
 {
     *f = (struct br_floors){.gathered = gathered};
     const enum br_status status = prepare(f, job, err);
-    if (!status && !br_long_plain_judges())
+    if (!status && !br_long_plain_resolves())
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");

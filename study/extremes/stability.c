@@ -17,13 +17,13 @@ double br_stability_most(const struct br_method *method)
     return method->scheme->may_lag ? 0.1 : 10;
 }
 
-enum br_stability_outcome br_stability_judge(const struct br_method *method, double share)
+enum br_stability_outcome br_stability_outcome_of(const struct br_method *method, double share)
 {
     return share <= br_stability_most(method) ? BR_STABLE : BR_UNSTABLE; /* NaN is unstable */
 }
 
 /* The workspace of a column. */
-struct work {
+struct stability_work {
     const struct br_stability *s;
     const struct br_stability_plane *plane;
     struct br_stability_column *column;
@@ -32,7 +32,7 @@ struct work {
     struct br_run_report *report; /* owned */
 };
 
-static enum br_status march(struct work *w, const struct br_method *method, size_t steps,
+static enum br_status march(struct stability_work *w, const struct br_method *method, size_t steps,
                             struct br_error *err)
 {
     const struct br_run_request request = {
@@ -70,10 +70,10 @@ static double added(const struct br_run_report *r)
     return share;
 }
 
-/* The share of energy that a march is judged by. Other schemes than Euler's need a second march,
+/* The share of energy that decides on a march. Other schemes than Euler's need a second march,
  * which replaces the report. */
-static enum br_status measure(struct work *w, const struct br_method *method, size_t steps,
-                              double *share, struct br_error *err)
+static enum br_status measure(struct stability_work *w, const struct br_method *method,
+                              size_t steps, double *share, struct br_error *err)
 {
     const struct br_run_report *r = w->report;
     if (method->scheme->may_lag) {
@@ -90,7 +90,8 @@ static enum br_status measure(struct work *w, const struct br_method *method, si
 }
 
 /* A march that cannot begin is a refusal, one that stops a break; both are results. */
-static enum br_status try_steps(struct work *w, struct br_stability_point *p, struct br_error *err)
+static enum br_status try_steps(struct stability_work *w, struct br_stability_point *p,
+                                struct br_error *err)
 {
     const struct br_method *method = &w->plane->by->method;
     enum br_status status = march(w, method, p->steps, err);
@@ -104,14 +105,14 @@ static enum br_status try_steps(struct work *w, struct br_stability_point *p, st
     if (!status)
         status = measure(w, method, p->steps, &p->share, err);
     if (!status)
-        p->outcome = br_stability_judge(method, p->share);
+        p->outcome = br_stability_outcome_of(method, p->share);
     return status;
 }
 
 /* ---- a column: from the smallest step on ---- */
 
 /* Bisects between a number of steps that is stable and a smaller one that is not. */
-static enum br_status find_largest(struct work *w, size_t stable, size_t broken,
+static enum br_status find_largest(struct stability_work *w, size_t stable, size_t broken,
                                    struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -133,7 +134,7 @@ static enum br_status find_largest(struct work *w, size_t stable, size_t broken,
     return status;
 }
 
-static enum br_status fill_column(struct work *w, struct br_error *err)
+static enum br_status fill_column(struct stability_work *w, struct br_error *err)
 {
     const struct br_stability *s = w->s;
     struct br_stability_column *c = w->column;
@@ -176,7 +177,8 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     struct br_stability_plane *plane = l->s->plane;
     for (; i >= plane->columns; plane++)
         i -= plane->columns;
-    struct work w = {.s = l->s, .plane = plane, .column = &plane->column[i], .scene = *l->s->scene};
+    struct stability_work w = {
+        .s = l->s, .plane = plane, .column = &plane->column[i], .scene = *l->s->scene};
     if (l->observer)
         w.stop = (struct br_observer){.stop = l->observer->stop, .self = l->observer->self};
     if (plane->over_stiffness)

@@ -49,14 +49,15 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
     return status;
 }
 
-/* The reference's own error: by the auditor, by the reference's statement, or else by the model
+/* The reference's own error: by the reference check, by its statement, or else by the model
  * against a reference without error. */
 static double reference_error(const struct br_study *s, enum br_part part,
                               const struct br_joint_fit *fit)
 {
-    if (s->auditor)
+    if (s->reference_check)
         return s->reference_error[part];
-    const double stated = br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
+    const double stated =
+        br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, part);
     if (isfinite(stated))
         return stated;
     if (!br_joint_describes(fit))
@@ -65,12 +66,12 @@ static double reference_error(const struct br_study *s, enum br_part part,
                           (double[]){0, 0});
 }
 
-/* Predicted round-off of a component of a cell, m^(3/2); and of the reference, unless an auditor
- * has measured all of its error. */
+/* Predicted round-off of a component of a cell, m^(3/2); and of the reference, unless a reference
+ * check has measured all of its error. */
 static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
     const struct br_method *method = br_study_method(s, (size_t)(c - s->cell));
-    double relative = s->auditor ? 0 : s->judged_by.round_off;
+    double relative = s->reference_check ? 0 : s->reference_report.round_off;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_field field = br_field_of_scene(
             s->scene, kind, c->at.n, br_time_step(s->scene, c->at.steps), method->axial_degree);

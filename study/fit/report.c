@@ -18,7 +18,7 @@ static const double near = 0.1, clear = 0.02; /* of an order */
 
 /* The errors that an order was sought in, without those that are left out beforehand. */
 struct sought {
-    const struct br_point *point[BR_MOST_SEEN]; /* the finest ones, from coarse to fine */
+    const struct br_point *point[BR_MOST_OBSERVED]; /* the finest ones, from coarse to fine */
     size_t count, left_out;
     enum br_flag flag; /* of the first that is left out */
 };
@@ -32,7 +32,7 @@ static struct sought sought_in(const struct br_orders_line *line)
             l.flag = l.left_out++ ? l.flag : p->flag;
             continue;
         }
-        if (l.count == BR_MOST_SEEN)
+        if (l.count == BR_MOST_OBSERVED)
             memmove(l.point, l.point + 1, --l.count * sizeof *l.point);
         l.point[l.count++] = p;
     }
@@ -45,7 +45,7 @@ static double rate(const struct sought *l, size_t i)
     return br_point_rate(l->point[i], l->point[i + 1]);
 }
 
-static void say_rates(struct br_seen_order *o, const struct sought *l)
+static void say_rates(struct br_observed_order *o, const struct sought *l)
 {
     for (size_t i = 0; i + 1 < l->count; i++)
         REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i));
@@ -53,14 +53,14 @@ static void say_rates(struct br_seen_order *o, const struct sought *l)
 }
 
 /* The order of theory that is nearest to an observed one. */
-static double nearest(const struct br_seen_order *o, double order)
+static double nearest(const struct br_observed_order *o, double order)
 {
     const struct br_theory *t = &o->theory;
     return isnan(t->order) ? t->formal : fmin(fmax(order, t->order), t->highest);
 }
 
 /* By how much the last rate is nearer to theory than the first one, relative to theory. */
-static double comes_closer(const struct br_seen_order *o, const struct sought *l)
+static double comes_closer(const struct br_observed_order *o, const struct sought *l)
 {
     const double formal = o->theory.formal, first = rate(l, 0);
     const double last = rate(l, l->count - 2);
@@ -68,7 +68,7 @@ static double comes_closer(const struct br_seen_order *o, const struct sought *l
 }
 
 /* Whether the order is that of theory. */
-static bool agrees(const struct br_seen_order *o)
+static bool agrees(const struct br_observed_order *o)
 {
     const double theory = nearest(o, o->order.value);
     const double off = fabs(o->order.value - theory) / theory;
@@ -76,7 +76,7 @@ static bool agrees(const struct br_seen_order *o)
 }
 
 /* How the order compares to theory. l: its rates follow where it is another one. */
-static void compare(struct br_seen_order *o, const struct sought *l)
+static void compare(struct br_observed_order *o, const struct sought *l)
 {
     const struct br_estimate *order = &o->order;
     const double theory = nearest(o, order->value), off = fabs(order->value - theory) / theory;
@@ -97,7 +97,7 @@ static void compare(struct br_seen_order *o, const struct sought *l)
     say_rates(o, l);
 }
 
-static void say_too_few(struct br_seen_order *o, const struct sought *l, const char *what)
+static void say_too_few(struct br_observed_order *o, const struct sought *l, const char *what)
 {
     if (l->left_out)
         REMARK(o, "not measurable: %zu of %zu %ss are left out%s%s; an order needs %d", l->left_out,
@@ -109,7 +109,7 @@ static void say_too_few(struct br_seen_order *o, const struct sought *l, const c
 }
 
 /* Why errors that do not fall as an order does show none, with what they do. */
-static void say_uneven(struct br_seen_order *o, const struct sought *l, enum br_axis axis)
+static void say_uneven(struct br_observed_order *o, const struct sought *l, enum br_axis axis)
 {
     bool falls = true;
     for (size_t i = 0; i + 1 < l->count; i++)
@@ -129,7 +129,7 @@ static void say_uneven(struct br_seen_order *o, const struct sought *l, enum br_
 }
 
 /* What more marches may settle an order that differences leave open. */
-static void advise(struct br_seen_order *o, const struct br_study *s, enum br_axis axis,
+static void advise(struct br_observed_order *o, const struct br_study *s, enum br_axis axis,
                    enum br_flag first_out)
 {
     const bool lost = first_out == BR_FLAG_ROUND_OFF;
@@ -147,8 +147,8 @@ static void advise(struct br_seen_order *o, const struct br_study *s, enum br_ax
 /* ---- the answer ---- */
 
 /* Names the errors that the answer comes from. */
-static void name_source(struct br_seen_order *o, const struct br_study *s,
-                        const struct br_study *apart, const struct br_quantity_orders *of,
+static void name_source(struct br_observed_order *o, const struct br_study *s,
+                        const struct br_study *compared, const struct br_quantity_orders *of,
                         enum br_axis axis)
 {
     static const char *const of_grid[BR_AXES] = {"errors at the smallest time step",
@@ -157,7 +157,7 @@ static void name_source(struct br_seen_order *o, const struct br_study *s,
                                                      "differences of successive time steps"};
     const struct br_orders_answer *a = &of->answer[axis];
     const bool by_differences = a->line == &of->differences[axis];
-    const struct br_study *from = by_differences ? apart : s;
+    const struct br_study *from = by_differences ? compared : s;
     const char *what = (by_differences ? differences : of_grid)[axis];
     if (a->joint)
         snprintf(o->by, sizeof o->by, "the joint fit of %zu cells, misfit %.2g %%",
@@ -172,12 +172,12 @@ static void name_source(struct br_seen_order *o, const struct br_study *s,
 
 /* Keeps the finest errors of the answer's line. Those of a joint fit lie on its model, which the
  * errors of the other axis bend. */
-static void keep_points(struct br_seen_order *o, const struct br_numbers *n,
+static void keep_points(struct br_observed_order *o, const struct br_numbers *n,
                         const struct br_quantity_orders *of, enum br_axis axis)
 {
     const struct br_orders_line *line = of->answer[axis].line;
     const size_t points = line ? line->observed.points : 0;
-    const size_t first = points > BR_MOST_SEEN ? points - BR_MOST_SEEN : 0;
+    const size_t first = points > BR_MOST_OBSERVED ? points - BR_MOST_OBSERVED : 0;
     for (size_t i = first; i < points; i++)
         o->point[o->points++] = line->observed.point[i];
     for (size_t i = 0; i < o->points; i++) {
@@ -193,28 +193,28 @@ static void keep_points(struct br_seen_order *o, const struct br_numbers *n,
     }
 }
 
-static void take_answer(struct br_seen_order *o, const struct br_report *r,
+static void take_answer(struct br_observed_order *o, const struct br_report *r,
                         const struct br_orders *orders, enum br_axis axis)
 {
     const struct br_quantity_orders *of = orders->of;
     const struct br_orders_answer *a = &of->answer[axis];
-    const struct br_study *apart = r->apart[axis];
+    const struct br_study *compared = r->compared[axis];
     const struct sought l = sought_in(a->line);
     o->order = a->order;
     o->joint = a->joint && !a->open;
-    name_source(o, r->fitted, apart, of, axis);
+    name_source(o, r->fitted, compared, of, axis);
     keep_points(o, orders->numbers, of, axis);
     if (!a->open)
         compare(o, &l);
-    else if (axis == BR_AXIS_SPACE && !apart)
+    else if (axis == BR_AXIS_SPACE && !compared)
         REMARK(o, "not measurable: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     else if (!a->joint && a->line && l.count < BR_ORDERS_LEAST)
-        say_too_few(o, &l, apart ? "difference" : "error");
+        say_too_few(o, &l, compared ? "difference" : "error");
     else if (a->joint || a->open != br_orders_uneven)
         REMARK(o, "not measurable: %s", a->open);
     else
         say_uneven(o, &l, axis);
-    if (apart && !agrees(o) && !r->printed && (a->open || isfinite(o->theory.order)))
+    if (compared && !agrees(o) && !r->printed && (a->open || isfinite(o->theory.order)))
         advise(o, r->fitted, axis, l.flag);
 }
 
@@ -240,17 +240,17 @@ static enum br_status add_differences(const struct br_study *s, enum br_part par
 }
 
 static enum br_status ask(const struct br_report *r, enum br_part part, enum br_axis axis,
-                          struct br_seen_order *o, struct br_error *err)
+                          struct br_observed_order *o, struct br_error *err)
 {
     struct br_numbers numbers;
     struct br_orders orders = {0};
     enum br_status status = br_fit_numbers(r->fitted, part, &numbers, err);
     numbers.fitted = &r->fits[part].joint;
     for (enum br_axis a = 0; a < BR_AXES && !status; a++) {
-        if (a == axis || r->apart[a])
+        if (a == axis || r->compared[a])
             numbers.quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
-        if (r->apart[a])
-            status = add_differences(r->apart[a], part, a, &numbers, err);
+        if (r->compared[a])
+            status = add_differences(r->compared[a], part, a, &numbers, err);
     }
     if (!status)
         status = br_orders_find(&numbers, 0, &orders, err);
@@ -261,7 +261,7 @@ static enum br_status ask(const struct br_report *r, enum br_part part, enum br_
     return status;
 }
 
-bool br_seen_settles(const struct br_seen_order *o)
+bool br_observed_settles(const struct br_observed_order *o)
 {
     return br_order_determined(&o->order) &&
            o->order.high - o->order.low <= 2 * near * o->order.value && agrees(o);
@@ -271,17 +271,19 @@ bool br_report_settles(const struct br_report *r, enum br_axis axis)
 {
     bool all = true;
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        all = all && (!r->seen[part][axis].asked || br_seen_settles(&r->seen[part][axis]));
+        all = all &&
+              (!r->observed[part][axis].asked || br_observed_settles(&r->observed[part][axis]));
     return all;
 }
 
-enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, struct br_error *err)
+enum br_status br_report_observe_orders(struct br_report *r, enum br_axis axis,
+                                        struct br_error *err)
 {
     const struct br_study *s = r->fitted;
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
-        struct br_seen_order *o = &r->seen[part][axis];
-        *o = (struct br_seen_order){
+        struct br_observed_order *o = &r->observed[part][axis];
+        *o = (struct br_observed_order){
             .asked = br_models(s->scene, part) && br_study_cells(s) > 0 &&
                      (axis == BR_AXIS_SPACE || !s->method.scheme->adaptive),
             .order = {NAN, NAN, NAN},
@@ -289,7 +291,7 @@ enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, stru
         };
         if (o->asked && part != BR_PART_TOTAL &&
             s->scene->axial.modelled != s->scene->bending.modelled)
-            *o = r->seen[BR_PART_TOTAL][axis]; /* it is the total */
+            *o = r->observed[BR_PART_TOTAL][axis]; /* it is the total */
         else if (o->asked)
             status = ask(r, part, axis, o, err);
     }
@@ -304,7 +306,7 @@ enum br_status br_report_finish(struct br_report *r, int threads, struct br_erro
     for (enum br_part part = 0; part < BR_PARTS && !status; part++)
         status = br_fit(r->fitted, part, &r->fits[part], err);
     for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
-        status = br_report_see_orders(r, axis, err);
+        status = br_report_observe_orders(r, axis, err);
     if (!status && r->exact)
         br_flag_beside(r->study);
     if (!status && r->printed)

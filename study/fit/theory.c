@@ -48,12 +48,13 @@ static struct br_theory none(double formal, const char *reason)
 /* ---- data ---- */
 
 /* Whether f is proved to be smooth along a variable inside each of `cells` equal cells. A function
- * with guards may break between them. One without, as sqrt, is smooth at their ends, too. */
+ * with switching functions may break between them. One without, as sqrt, is smooth at their ends,
+ * too. */
 static bool is_smooth(const struct br_function *f, enum br_variable along, size_t cells,
                       const struct br_scene *s)
 {
     const double size = (along == BR_X ? s->length : s->duration) / (double)cells;
-    const double inset = br_function_guard(f, 0) && cells > 1 ? beside : 0;
+    const double inset = br_function_switching(f, 0) && cells > 1 ? beside : 0;
     bool smooth = true;
     if (!f->ops || !(along == BR_X ? f->uses_x : f->uses_t))
         return true;

@@ -125,7 +125,7 @@ static enum br_status march_pairs(const struct br_study *s, struct br_triangle *
             .scene = s->scene,
             .norm = s->norm,
             .method = s->method,
-            .judge = &br_judge_fine,
+            .reference_kind = &br_reference_fine,
             .reference_method = s->method,
             .reference = triangles[i].b,
             .n_count = 1,

@@ -36,9 +36,10 @@ double br_reference_cost(const struct br_study *s)
         levels = s->steps[j] > levels ? s->steps[j] : levels;
     for (size_t i = 0; i < s->n_count; i++)
         n = s->n[i] > n ? s->n[i] : n;
-    if (!s->judge->nests)
-        return create_ns + (s->judge == &br_judge_mms ? sample_given_ns : sample_exact_ns) *
-                               fields(s->scene) * (double)levels * (double)n;
+    if (!s->reference_kind->nests)
+        return create_ns +
+               (s->reference_kind == &br_reference_mms ? sample_given_ns : sample_exact_ns) *
+                   fields(s->scene) * (double)levels * (double)n;
     return br_method_cost(&s->reference_method, s->scene, s->reference.n) *
                (double)s->reference.steps +
            sample_fine_ns * fields(s->scene) * (double)levels * (double)s->reference.n;
@@ -243,10 +244,10 @@ static void set_cells(struct br_study *s, const size_t *of, size_t batch)
 /* All batches of a study report the same about it, except times; a failure is kept. */
 static void pass_study(struct br_record *r, struct br_study *s, const size_t *of, size_t batch)
 {
-    bool audited = s->auditor != NULL;
+    bool checked = s->reference_check != NULL;
     const struct br_error before = s->failure;
-    br_record_flag(r, &audited);
-    br_record_bytes(r, &s->judged_by, sizeof s->judged_by);
+    br_record_flag(r, &checked);
+    br_record_bytes(r, &s->reference_report, sizeof s->reference_report);
     br_record_bytes(r, &s->reference_scale, sizeof s->reference_scale);
     br_record_bytes(r, s->reference_size, sizeof s->reference_size);
     br_record_bytes(r, s->reference_error, sizeof s->reference_error);
@@ -259,8 +260,8 @@ static void pass_study(struct br_record *r, struct br_study *s, const size_t *of
     for (size_t i = 0; i < br_study_cells(s); i++)
         if (of[i] == batch)
             br_record_bytes(r, &s->cell[i], sizeof s->cell[i]);
-    if (!audited)
-        s->auditor = NULL;
+    if (!checked)
+        s->reference_check = NULL;
     if (before.status)
         s->failure = before;
 }
@@ -280,7 +281,7 @@ enum br_status br_batch_march(struct br_study *studies, size_t count, const stru
             set_cells(&studies[s], of, batch);
             copy[copies++] = studies[s];
         }
-    enum br_status status = br_lockstep(copy, copies, threads, observer, err);
+    enum br_status status = br_march_studies(copy, copies, threads, observer, err);
     br_record_bytes(&r, &batch, sizeof batch);
     of = b->of;
     for (size_t s = 0; s < count; of += br_study_cells(&studies[s++])) {

@@ -16,7 +16,7 @@ static void set_pairs(const struct br_study *grid, bool over_h, size_t pairs,
                 .scene = grid->scene,
                 .norm = norm->norm,
                 .method = grid->method,
-                .judge = &br_judge_fine,
+                .reference_kind = &br_reference_fine,
                 .reference_method = grid->method,
                 .reference = {grid->n[i + over_h], grid->steps[j + !over_h]},
                 .n_count = 1,
@@ -35,12 +35,12 @@ static enum br_status gather(const struct br_study *grid, bool over_h, size_t pa
 {
     *out = *grid;
     out->norm = pair->norm;
-    out->judge = &br_judge_none;
-    out->auditor = NULL;
+    out->reference_kind = &br_reference_none;
+    out->reference_check = NULL;
     out->next_norm = NULL;
     out->events = NULL;
     out->reference = (struct br_resolution){0};
-    out->judged_by = pair->judged_by;
+    out->reference_report = pair->reference_report;
     out->reference_scale = pair->reference_scale;
     out->n_count -= over_h;
     out->k_count -= !over_h;
@@ -49,7 +49,7 @@ static enum br_status gather(const struct br_study *grid, bool over_h, size_t pa
         return br_no_memory(err, "the differences");
     for (size_t c = 0; c < pairs; c++) {
         out->cell[c] = pair[c].cell[0];
-        out->cell[c].unstable |= pair[c].judged_by.unstable; /* one of the two marches is */
+        out->cell[c].unstable |= pair[c].reference_report.unstable; /* one of the two marches is */
     }
     return BR_OK;
 }

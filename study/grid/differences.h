@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each cell against the same scheme on the next finer mesh, or with the next smaller time step
  * (Richardson 1911; Roache 1998). Such differences have the orders of the errors, and need no
- * judge. */
+ * reference. */
 #ifndef BR_STUDY_GRID_DIFFERENCES_H
 #define BR_STUDY_GRID_DIFFERENCES_H
 

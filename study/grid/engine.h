@@ -15,12 +15,12 @@ struct br_engine {
                             const struct br_observer *observer, struct br_error *err);
 };
 
-/* Marches in this process: reference and cells in lockstep, as tasks. See br_study_run_each. */
-enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
-                           const struct br_observer *observer, struct br_error *err);
+/* Marches in this process: reference and cells side by side, as tasks. See br_study_run_each. */
+enum br_status br_march_studies(struct br_study *studies, size_t count, int threads,
+                                const struct br_observer *observer, struct br_error *err);
 
-/* The usual engine, for the whole process: at first br_lockstep. For the main thread, before any
- * study runs. */
+/* The usual engine, for the whole process: at first br_march_studies. For the main thread, before
+ * any study runs. */
 void br_engine_set(struct br_engine engine);
 
 #endif

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which thread does which batch. No result depends on it. */
 #include "base/each.h"
-#include "study/grid/lockstep.h"
+#include "study/grid/study_march.h"
 
 /* The studies of a call, and their progress. */
-struct work {
-    struct br_lockstep *step;
+struct lanes_work {
+    struct br_study_march *step;
     size_t count;
     pthread_mutex_t lock; /* of all lanes */
     pthread_cond_t done;  /* a lane has done a batch */
@@ -14,7 +14,7 @@ struct work {
     const struct br_observer *observer;
 };
 
-static void report_progress(struct work *work, struct br_lockstep *l)
+static void report_progress(struct lanes_work *work, struct br_study_march *l)
 {
     if (atomic_load(&l->stopped) || atomic_load(&l->first_failed) <= l->level_count)
         return;
@@ -24,7 +24,7 @@ static void report_progress(struct work *work, struct br_lockstep *l)
 }
 
 /* The batches that are to be done: after a failure those up to it, so that it is the first one. */
-static size_t last_batch(struct br_lockstep *l)
+static size_t last_batch(struct br_study_march *l)
 {
     const size_t failed = atomic_load(&l->first_failed);
     if (atomic_load(&l->stopped))
@@ -33,7 +33,7 @@ static size_t last_batch(struct br_lockstep *l)
 }
 
 /* Whether a lane's next batch has what it reads, and a buffer that nobody reads any more. */
-static bool is_ready(const struct br_lockstep *l, size_t lane)
+static bool is_ready(const struct br_study_march *l, size_t lane)
 {
     const size_t b = l->lane[lane].done;
     if (l->lane[lane].busy || (lane > BR_LANE_AXIAL && b == l->lane[BR_LANE_AXIAL].done))
@@ -41,18 +41,18 @@ static bool is_ready(const struct br_lockstep *l, size_t lane)
     if (lane > BR_LANE_BENDING)
         return b < l->lane[BR_LANE_BENDING].done;
     for (size_t reader = lane + 1; reader < BR_LANE_CELLS + l->tasks; reader++)
-        if (b == l->lane[reader].done + BR_LOCKSTEP_BUFFERS)
+        if (b == l->lane[reader].done + BR_STUDY_MARCH_BUFFERS)
             return false;
     return true;
 }
 
 /* Chooses the ready lane with the earliest batch: *l and *lane (out). Returns whether anything is
  * left to do; *l is NULL if others do it, or have to end before it can begin. */
-static bool choose_lane(const struct work *work, struct br_lockstep **l, size_t *lane)
+static bool choose_lane(const struct lanes_work *work, struct br_study_march **l, size_t *lane)
 {
     bool left = false;
     *l = NULL;
-    for (struct br_lockstep *s = work->step; s < work->step + work->count; s++) {
+    for (struct br_study_march *s = work->step; s < work->step + work->count; s++) {
         const size_t end = s->batches ? last_batch(s) : 0;
         for (size_t i = 0; i < BR_LANE_CELLS + s->tasks && end; i++) {
             if (s->lane[i].done >= end)
@@ -67,7 +67,7 @@ static bool choose_lane(const struct work *work, struct br_lockstep **l, size_t 
     return left;
 }
 
-static void do_batch(struct work *work, struct br_lockstep *l, size_t lane, size_t b)
+static void do_batch(struct lanes_work *work, struct br_study_march *l, size_t lane, size_t b)
 {
     if (lane <= BR_LANE_BENDING)
         br_reference_batch(l, lane == BR_LANE_AXIAL ? BR_AXIAL : BR_BENDING, b);
@@ -82,8 +82,8 @@ static void do_batch(struct work *work, struct br_lockstep *l, size_t lane, size
 /* What each thread does. */
 static void do_batches(void *self)
 {
-    struct work *work = self;
-    struct br_lockstep *l;
+    struct lanes_work *work = self;
+    struct br_study_march *l;
     size_t i = 0;
     pthread_mutex_lock(&work->lock);
     while (choose_lane(work, &l, &i)) {
@@ -103,16 +103,16 @@ static void do_batches(void *self)
     pthread_mutex_unlock(&work->lock);
 }
 
-void br_lanes_run(struct br_lockstep *step, size_t count, int threads,
+void br_lanes_run(struct br_study_march *step, size_t count, int threads,
                   const struct br_observer *observer)
 {
-    struct work work = {.step = step,
-                        .count = count,
-                        .lock = PTHREAD_MUTEX_INITIALIZER,
-                        .done = PTHREAD_COND_INITIALIZER,
-                        .observer = observer};
+    struct lanes_work work = {.step = step,
+                              .count = count,
+                              .lock = PTHREAD_MUTEX_INITIALIZER,
+                              .done = PTHREAD_COND_INITIALIZER,
+                              .observer = observer};
     size_t lanes = 0;
-    for (const struct br_lockstep *l = step; l < step + count; l++) {
+    for (const struct br_study_march *l = step; l < step + count; l++) {
         work.all_batches += l->batches;
         lanes += BR_LANE_CELLS + l->tasks;
     }

@@ -35,7 +35,7 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
 
 double br_reference_step(const struct br_study *s)
 {
-    return s->judge->nests ? br_time_step(s->scene, s->reference.steps) : 0;
+    return s->reference_kind->nests ? br_time_step(s->scene, s->reference.steps) : 0;
 }
 
 double br_reference_mesh(const struct br_study *s)
@@ -63,12 +63,13 @@ void br_state_study(struct br_statement *s, const struct br_study *study)
 {
     br_state_scene(s, study->scene);
     br_state(s, "norm", "%s", study->norm->name);
-    br_state(s, "judge", "%s", study->judge->name);
-    if (study->judge->nests) { /* else they need not be set */
+    br_state(s, "reference_kind", "%s", study->reference_kind->name);
+    if (study->reference_kind->nests) { /* else they need not be set */
         state_resolution(s, study->reference);
         br_state_method(s, &study->reference_method);
     }
-    br_state(s, "auditor", "%s", study->auditor ? study->auditor->name : "");
+    br_state(s, "reference_check", "%s",
+             study->reference_check ? study->reference_check->name : "");
     for (size_t c = 0; c < br_study_cells(study); c++) {
         state_resolution(s, br_study_resolution(study, c));
         if (c == 0 || study->cell_method)
@@ -164,7 +165,7 @@ static enum br_status create_cells(struct br_study *s, struct br_error *err)
     for (size_t c = 0; c < cells; c++)
         s->cell[c] = (struct br_cell){
             .at = br_study_resolution(s, c),
-            .against = s->judge->nests ? s->reference : (struct br_resolution){0},
+            .against = s->reference_kind->nests ? s->reference : (struct br_resolution){0},
         };
     return BR_OK;
 }
@@ -174,7 +175,7 @@ enum br_status br_study_prepare(struct br_study *s, struct br_error *err)
     if (s->n_count == 0 || s->k_count == 0)
         return br_fail(err, BR_BAD_INPUT, "the list of %s is empty, expected at least one value",
                        s->n_count == 0 ? "n" : "k");
-    if (s->judge->nests && (s->reference.n < 1 || s->reference.steps < 1))
+    if (s->reference_kind->nests && (s->reference.n < 1 || s->reference.steps < 1))
         return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
     if (s->path && s->n_count != s->k_count)
         return br_fail(err, BR_BAD_INPUT, "a path has %zu n and %zu k, expected as many",
@@ -182,12 +183,13 @@ enum br_status br_study_prepare(struct br_study *s, struct br_error *err)
     for (size_t c = 0; c < br_study_cells(s); c++)
         if (br_study_method(s, c)->axial_degree != s->method.axial_degree)
             return br_fail(err, BR_BAD_INPUT, "the cells have axial elements of several degrees");
-    if (s->judge->nests && s->reference_method.axial_degree != s->method.axial_degree)
+    if (s->reference_kind->nests && s->reference_method.axial_degree != s->method.axial_degree)
         return br_fail(err, BR_BAD_INPUT,
                        "the cells have axial elements of degree %d and the reference of degree %d, "
                        "expected the same",
                        s->method.axial_degree, s->reference_method.axial_degree);
-    const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
+    const enum br_status status =
+        s->reference_kind->nests ? check_nesting(s, err) : common_levels(s, err);
     if (status)
         return status;
     enum br_status table = BR_OK;

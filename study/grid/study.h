@@ -5,7 +5,7 @@
 #define BR_STUDY_GRID_STUDY_H
 
 #include "orders/axis.h"
-#include "reference/judge.h"
+#include "reference/reference.h"
 #include "study/grid/engine.h"
 #include "study/grid/norms.h"
 #include "study/scene/resolution.h"
@@ -30,14 +30,14 @@ struct br_study {
     const struct br_norm *norm;
     struct br_method method; /* of the cells */
     const struct br_method
-        *cell_method;                  /* br_study_cells of them: of each cell instead, on elements
-                                          of method's degree; NULL: all alike. Borrowed */
-    const struct br_judge *judge;      /* the reference */
-    struct br_method reference_method; /* of a fine run */
-    struct br_resolution reference;    /* a fine run's; otherwise n = 0, and steps are set to the
-                                          least common multiple of the cells' */
-    const struct br_judge *auditor; /* measures the reference's own error; NULL: none. Set to NULL
-                                       where it cannot promise a solution */
+        *cell_method; /* br_study_cells of them: of each cell instead, on elements
+                         of method's degree; NULL: all alike. Borrowed */
+    const struct br_reference *reference_kind; /* the reference */
+    struct br_method reference_method;         /* of a fine run */
+    struct br_resolution reference; /* a fine run's; otherwise n = 0, and steps are set to the
+                                       least common multiple of the cells' */
+    const struct br_reference *reference_check; /* measures the reference's own error; NULL: none.
+                                       Set to NULL where it cannot promise a solution */
     size_t n_count, k_count;
     bool path;                  /* the cells are (n[i], steps[i]) alone, and n_count = k_count */
     const size_t *n;            /* n_count, borrowed */
@@ -48,11 +48,11 @@ struct br_study {
                                    (engine.h) */
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
-    struct br_judge_report judged_by;
+    struct br_reference_report reference_report;
     char *events;                     /* lines that the reference prints; owned; may be NULL */
     double reference_scale;           /* the norm of the reference itself */
     double reference_size[2];         /* the same of each field, by br_field_kind */
-    double reference_error[BR_PARTS]; /* by the auditor; without one: NaN */
+    double reference_error[BR_PARTS]; /* by the reference check; without one: NaN */
     double reference_tip[2];          /* the reference's displacement at x = L, t = T, m */
     struct br_error failure; /* of the reference or the grid; the rest then means nothing */
 };

@@ -6,25 +6,25 @@
 
 #include "base/each.h"
 #include "base/text.h"
-#include "study/grid/lockstep.h"
+#include "study/grid/study_march.h"
 
 /* ---- the set-up ---- */
 
 /* The studies of a call. */
-struct work {
+struct sweep_work {
     struct br_study *studies;
-    struct br_lockstep *step; /* of each study */
+    struct br_study_march *step; /* of each study */
     size_t count;
     const struct br_observer *observer;
 };
 
-static void create(struct work *work, size_t s)
+static void create(struct sweep_work *work, size_t s)
 {
-    struct br_lockstep *l = &work->step[s];
+    struct br_study_march *l = &work->step[s];
     struct br_study *study = &work->studies[s];
     if (study->failure.status)
         l->study = study;
-    else if (br_lockstep_create(l, study, work->observer, &study->failure))
+    else if (br_study_march_create(l, study, work->observer, &study->failure))
         l->batches = 0; /* nothing to march */
 }
 
@@ -33,7 +33,7 @@ static void create(struct work *work, size_t s)
  * since all of them use its functions (scene.h). */
 static enum br_status create_of_scene(void *self, size_t first, struct br_error *err)
 {
-    struct work *work = self;
+    struct sweep_work *work = self;
     const struct br_study *studies = work->studies;
     (void)err;
     for (size_t s = 0; s < first; s++)
@@ -48,7 +48,7 @@ static enum br_status create_of_scene(void *self, size_t first, struct br_error 
 /* ---- the results ---- */
 
 /* Writes the results of one cell in one norm. */
-static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_t index,
+static void conclude_cell(const struct br_study_march *l, struct br_study *s, size_t index,
                           const struct br_norm_sum *sum)
 {
     struct br_cell *cell = &s->cell[index];
@@ -64,12 +64,12 @@ static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_
 }
 
 /* Writes what was measured into the studies. */
-static void conclude_norms(struct br_lockstep *l)
+static void conclude_norms(struct br_study_march *l)
 {
     size_t m = 0;
     for (struct br_study *s = l->study; s; s = s->next_norm, m++) {
-        s->auditor = l->study->auditor;
-        s->judged_by = l->reference.judge->report(l->reference.self);
+        s->reference_check = l->study->reference_check;
+        s->reference_report = l->reference.reference_kind->report(l->reference.self);
         s->reference_scale = br_norm_value(s->norm, &l->reference.sum[m], BR_PART_TOTAL);
         for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
             const enum br_part part = br_part_of(kind);
@@ -78,20 +78,20 @@ static void conclude_norms(struct br_lockstep *l)
         }
         for (enum br_part part = 0; part < BR_PARTS; part++)
             s->reference_error[part] =
-                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], part) : NAN;
+                s->reference_check ? br_norm_value(s->norm, &l->reference_check.sum[m], part) : NAN;
         for (size_t i = 0; i < br_study_cells(s); i++)
             conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
     }
 }
 
 /* Keeps the reference's lines of events with the study. */
-static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
+static enum br_status keep_events(struct br_study_march *l, struct br_study *study,
                                   struct br_error *err)
 {
     size_t size;
     FILE *out = br_text_open(&study->events, &size);
     if (out)
-        l->reference.judge->print_notes(l->reference.self, out);
+        l->reference.reference_kind->print_notes(l->reference.self, out);
     return out && fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
 }
 
@@ -109,7 +109,7 @@ static bool succeeded(struct br_study *first)
     return !first->failure.status;
 }
 
-static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
+static enum br_status conclude(struct br_study_march *l, struct br_error *err)
 {
     if (l->failure.status)
         l->study->failure = l->failure;
@@ -131,10 +131,10 @@ static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
 
 /* ---- studies ---- */
 
-enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
-                           const struct br_observer *observer, struct br_error *err)
+enum br_status br_march_studies(struct br_study *studies, size_t count, int threads,
+                                const struct br_observer *observer, struct br_error *err)
 {
-    struct work work = {studies, br_allocate(count, sizeof *work.step), count, observer};
+    struct sweep_work work = {studies, br_allocate(count, sizeof *work.step), count, observer};
     if (!work.step)
         return br_no_memory(err, "the studies");
     br_each(&(struct br_each){count, br_threads(threads), NULL, create_of_scene, NULL, &work},
@@ -148,12 +148,12 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
     for (size_t s = 0; s < count && !status; s++)
         status = conclude(&work.step[s], err);
     for (size_t s = 0; s < count; s++)
-        br_lockstep_clear(&work.step[s]);
+        br_study_march_clear(&work.step[s]);
     free(work.step);
     return status;
 }
 
-static struct br_engine usual = {br_lockstep};
+static struct br_engine usual = {br_march_studies};
 
 void br_engine_set(struct br_engine engine)
 {

@@ -7,7 +7,7 @@
 #include "study/grid/study.h"
 
 /* Runs studies on `threads` threads (0: all cores), all at once: the reference and
- * the cells march in lockstep, a few time levels at a time, so that neither is
+ * the cells march side by side, a few time levels at a time, so that neither is
  * ever stored as a whole. The results do not depend on the number of threads.
  * A cell that fails is marked; the reference failing, or grids that do not nest,
  * fail the call (BR_BAD_INPUT names the nearest values that would do). `studies` are

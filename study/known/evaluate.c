@@ -235,10 +235,10 @@ enum { CHUNK = 256 }; /* points at a time: the arrays stay in the fast caches */
 /* A tree and the workspace of its bounds. */
 struct enclosed {
     struct br_tree tree;
-    struct br_interval *work; /* a guard uses that of its expression */
+    struct br_interval *work; /* a switching function uses that of its expression */
 };
 
-struct guard {
+struct switching {
     struct enclosed of;
     struct br_function f;
 };
@@ -247,8 +247,8 @@ struct expression {
     struct enclosed of; /* first member: bounds take a pointer to it */
     const struct br_elementary *set;
     double *room; /* CHUNK values of each node */
-    struct guard *guard;
-    size_t guards;
+    struct switching *switching;
+    size_t switchings;
 };
 
 static void expression_free(void *self)
@@ -256,11 +256,11 @@ static void expression_free(void *self)
     struct expression *e = self;
     if (!e)
         return;
-    for (size_t i = 0; i < e->guards; i++)
-        br_tree_clear(&e->guard[i].of.tree);
+    for (size_t i = 0; i < e->switchings; i++)
+        br_tree_clear(&e->switching[i].of.tree);
     br_tree_clear(&e->of.tree);
     free(e->of.work);
-    free(e->guard);
+    free(e->switching);
     free(e->room);
     free(e);
 }
@@ -276,7 +276,7 @@ static double *values_of(const struct expression *e, size_t node)
     return e->room + node * CHUNK;
 }
 
-static const struct br_function_ops guard_ops;
+static const struct br_function_ops switching_ops;
 
 static bool is_truth(enum br_operation o)
 {
@@ -289,9 +289,9 @@ static bool compares(enum br_operation o)
 }
 
 /* Whether a node jumps or bends where argument k changes its sign; of a comparison, min or max:
- * where the difference of both arguments does. A truth value needs no guard: it jumps where the
- * guards of its own arguments change their signs. */
-static bool needs_guard(const struct br_tree *tree, const struct br_node *n, unsigned k)
+ * where the difference of both arguments does. A truth value needs no switching function: it jumps
+ * where the switching functions of its own arguments change their signs. */
+static bool needs_switching(const struct br_tree *tree, const struct br_node *n, unsigned k)
 {
     const enum br_operation o = n->operation;
     if (!n->uses_x && !n->uses_t)
@@ -303,11 +303,11 @@ static bool needs_guard(const struct br_tree *tree, const struct br_node *n, uns
             (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR || (o == BR_OP_CHOOSE && k == 0)));
 }
 
-/* Appends the guard, which has at most one node more than the tree. */
-static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
+/* Appends the switching function, which has at most one node more than the tree. */
+static bool add_switching(struct expression *e, const struct br_node *n, unsigned k)
 {
     struct br_tree_builder b = {0};
-    struct guard *g = &e->guard[e->guards];
+    struct switching *g = &e->switching[e->switchings];
     unsigned root = br_tree_graft(&b, &e->of.tree, n->argument[k]);
     if (compares(n->operation))
         root = br_tree_node(&b, BR_OP_SUBTRACT, root,
@@ -317,8 +317,8 @@ static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
     const struct br_node *last = &g->of.tree.node[g->of.tree.count - 1];
     g->of.work = e->of.work;
     g->f = (struct br_function){
-        .ops = &guard_ops, .self = &g->of, .uses_x = last->uses_x, .uses_t = last->uses_t};
-    e->guards++;
+        .ops = &switching_ops, .self = &g->of, .uses_x = last->uses_x, .uses_t = last->uses_t};
+    e->switchings++;
     return true;
 }
 
@@ -335,14 +335,14 @@ static struct expression *create(struct br_tree *tree)
     e->of = (struct enclosed){own, br_allocate(own.count + 1, BR_TREE_WORK * sizeof *e->of.work)};
     e->set = br_elementary_all[br_instruction_set_best()];
     e->room = br_allocate_aligned(own.count * CHUNK, sizeof *e->room);
-    e->guard = br_allocate(3 * own.count, sizeof *e->guard);
-    bool done = e->of.work && e->room && e->guard;
+    e->switching = br_allocate(3 * own.count, sizeof *e->switching);
+    bool done = e->of.work && e->room && e->switching;
     for (size_t i = 0; i < own.count && done; i++) {
         const struct br_node *n = &own.node[i];
         if (n->operation == BR_OP_NUMBER)
             fill(values_of(e, i), CHUNK, n->number);
         for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
-            done = !needs_guard(&own, n, k) || add_guard(e, n, k);
+            done = !needs_switching(&own, n, k) || add_switching(e, n, k);
     }
     if (done)
         return e;
@@ -437,10 +437,10 @@ static bool expression_taylor(const void *self, enum br_variable along, struct b
     return br_tree_taylor(&e->tree, e->work, along, box, order, coefficient);
 }
 
-static const struct br_function *expression_guard(const void *self, size_t i)
+static const struct br_function *expression_switching(const void *self, size_t i)
 {
     const struct expression *e = self;
-    return i < e->guards ? &e->guard[i].f : NULL;
+    return i < e->switchings ? &e->switching[i].f : NULL;
 }
 
 static const struct br_function_ops expression_ops = {
@@ -449,12 +449,12 @@ static const struct br_function_ops expression_ops = {
     .free = expression_free,
     .bound = expression_bound,
     .taylor = expression_taylor,
-    .guard = expression_guard,
+    .switching = expression_switching,
     .derive = expression_derive,
 };
 
-/* A guard is never evaluated. */
-static const struct br_function_ops guard_ops = {
+/* A switching function is never evaluated. */
+static const struct br_function_ops switching_ops = {
     .bound = expression_bound,
     .taylor = expression_taylor,
 };

@@ -13,33 +13,33 @@ struct sum {
 };
 
 /* The builder begins with a copy of the expression, whose indices do not change. */
-struct work {
+struct products_work {
     struct br_tree_builder builder;
     unsigned one;
 };
 
-static unsigned multiply(struct work *w, unsigned a, unsigned b)
+static unsigned multiply(struct products_work *w, unsigned a, unsigned b)
 {
     return a == w->one ? b : b == w->one ? a : br_tree_node(&w->builder, BR_OP_MULTIPLY, a, b, 0);
 }
 
-static unsigned divide(struct work *w, unsigned a, unsigned b)
+static unsigned divide(struct products_work *w, unsigned a, unsigned b)
 {
     return b == w->one ? a : br_tree_node(&w->builder, BR_OP_DIVIDE, a, b, 0);
 }
 
-static unsigned add(struct work *w, unsigned a, unsigned b)
+static unsigned add(struct products_work *w, unsigned a, unsigned b)
 {
     return br_tree_node(&w->builder, BR_OP_ADD, a, b, 0);
 }
 
-static bool uses_t(const struct work *w, unsigned node)
+static bool uses_t(const struct products_work *w, unsigned node)
 {
     return node != BR_NO_NODE && w->builder.tree.node[node].uses_t;
 }
 
 /* Adds a product, or merges it with one of equal space or time factor. False: too many. */
-static bool append(struct work *w, struct sum *s, unsigned space, unsigned time)
+static bool append(struct products_work *w, struct sum *s, unsigned space, unsigned time)
 {
     for (size_t i = 0; i < s->count; i++) {
         if (s->term[i].space == space) {
@@ -63,9 +63,9 @@ static struct sum single(unsigned space, unsigned time)
     return (struct sum){1, {{space, time}}};
 }
 
-static struct sum split(struct work *w, unsigned i);
+static struct sum split(struct products_work *w, unsigned i);
 
-static void negate(struct work *w, struct sum *s)
+static void negate(struct products_work *w, struct sum *s)
 {
     for (size_t i = 0; i < s->count; i++) {
         unsigned *factor = s->term[i].space == w->one ? &s->term[i].time : &s->term[i].space;
@@ -73,7 +73,7 @@ static void negate(struct work *w, struct sum *s)
     }
 }
 
-static bool add_all(struct work *w, struct sum *to, const struct sum *from)
+static bool add_all(struct products_work *w, struct sum *to, const struct sum *from)
 {
     bool fits = true;
     for (size_t i = 0; i < from->count && fits; i++)
@@ -82,8 +82,8 @@ static bool add_all(struct work *w, struct sum *to, const struct sum *from)
 }
 
 /* a * b, where one of them is a single product, or a / b, where b is one. */
-static bool combine(struct work *w, const struct sum *a, const struct sum *b, bool quotient,
-                    struct sum *out)
+static bool combine(struct products_work *w, const struct sum *a, const struct sum *b,
+                    bool quotient, struct sum *out)
 {
     bool fits = b->count == 1 || (a->count == 1 && !quotient);
     *out = (struct sum){0};
@@ -99,14 +99,14 @@ static bool combine(struct work *w, const struct sum *a, const struct sum *b, bo
     return fits;
 }
 
-static bool is_integer(const struct work *w, unsigned i)
+static bool is_integer(const struct products_work *w, unsigned i)
 {
     const struct br_node *n = &w->builder.tree.node[i];
     return n->operation == BR_OP_NUMBER && n->number == rint(n->number);
 }
 
 /* F(x)^n G(t)^n, and likewise abs. */
-static bool of_product(struct work *w, const struct br_node *n, struct sum *out)
+static bool of_product(struct products_work *w, const struct br_node *n, struct sum *out)
 {
     if ((n->operation == BR_OP_POW && !is_integer(w, n->argument[1])))
         return false;
@@ -121,7 +121,7 @@ static bool of_product(struct work *w, const struct br_node *n, struct sum *out)
 }
 
 /* Writes a node as a sum of products; false: it is not one. */
-static bool multiply_out(struct work *w, const struct br_node *n, struct sum *out)
+static bool multiply_out(struct products_work *w, const struct br_node *n, struct sum *out)
 {
     struct sum other;
     switch (n->operation) {
@@ -150,7 +150,7 @@ static bool multiply_out(struct work *w, const struct br_node *n, struct sum *ou
     }
 }
 
-static struct sum split(struct work *w, unsigned i)
+static struct sum split(struct products_work *w, unsigned i)
 {
     struct sum out;
     if (i == BR_NO_NODE)
@@ -161,7 +161,7 @@ static struct sum split(struct work *w, unsigned i)
     return n.uses_x || !n.uses_t ? single(i, w->one) : single(w->one, i);
 }
 
-static enum br_status function_of(struct work *w, unsigned root, struct br_function *f,
+static enum br_status function_of(struct products_work *w, unsigned root, struct br_function *f,
                                   struct br_error *err)
 {
     struct br_tree tree;
@@ -177,7 +177,7 @@ enum br_status br_products(struct br_function *f, struct br_load *load, struct b
         load->term[0] = f->uses_x ? (struct br_product){*f, one} : (struct br_product){one, *f};
         return BR_OK;
     }
-    struct work w = {0};
+    struct products_work w = {0};
     w.one = br_tree_number(&w.builder, 1);
     const struct br_tree *tree = br_tree_of(f);
     const struct sum sum = split(&w, br_tree_graft(&w.builder, tree, (unsigned)tree->count - 1));

@@ -185,8 +185,8 @@ static void measure_stuck(const struct br_paper *p, size_t which, struct br_find
 /* What the exact solution of a table's cells may be off by, m^(3/2). */
 static double error_of_exact(const struct br_paper_table *t)
 {
-    const struct br_judge_report *judged = &t->study.judged_by;
-    return judged->own_error[0][BR_DISPLACEMENT] + judged->own_error[1][BR_DISPLACEMENT];
+    const struct br_reference_report *reference = &t->study.reference_report;
+    return reference->own_error[0][BR_DISPLACEMENT] + reference->own_error[1][BR_DISPLACEMENT];
 }
 
 static void measure_order(const struct br_paper *p, size_t which, struct br_finding *f)

@@ -203,7 +203,7 @@ static enum br_status run_tables(struct br_paper *p, const struct br_observer *o
             .scene = &p->example[i].scene,
             .norm = &br_norm_l2,
             .method = br_method_default(),
-            .judge = &br_judge_exact,
+            .reference_kind = &br_reference_exact,
             .n_count = 1,
             .k_count = 2,
             .n = t->n,
@@ -307,7 +307,7 @@ static enum br_status run_coupled(struct br_paper *p, struct br_error *err)
 
 /* ---- tasks ---- */
 
-struct work {
+struct figures_work {
     struct br_paper *paper;
     const struct br_observer *observer;
 };
@@ -315,7 +315,7 @@ struct work {
 /* The long ones first: exact solutions, examples, the sweep, the rest. */
 static enum br_status run_task(void *self, size_t task, struct br_error *err)
 {
-    const struct work *w = self;
+    const struct figures_work *w = self;
     if (task < BR_EXAMPLES)
         return solve_exactly(w->paper, task, w->observer, err);
     task -= BR_EXAMPLES;
@@ -331,7 +331,7 @@ static enum br_status run_task(void *self, size_t task, struct br_error *err)
 static enum br_status run_tasks(struct br_paper *p, const struct br_observer *observer,
                                 struct br_error *err)
 {
-    struct work work = {p, observer};
+    struct figures_work work = {p, observer};
     const struct br_each each = {
         .count = 2 * BR_EXAMPLES + p->sweep[0].points + p->sweep[1].points + 2,
         .threads = p->request.threads,

@@ -55,7 +55,7 @@ static struct {
     struct report *report; /* of each rank, at the last exchange */
     int *bytes, *offset;   /* of each rank's results */
 
-    int64_t *seen;          /* the window as it was read last */
+    int64_t *snapshot;      /* the window as it was read last */
     int64_t mine[NUMBERS];  /* this rank's numbers as they are written */
     MPI_Request request[3]; /* of sending, of reading, and of the mark */
     bool sending, marked;   /* whether those have begun */
@@ -120,7 +120,7 @@ static void send_heartbeat(void)
     job.sending = true;
     MPI_Raccumulate(job.mine, NUMBERS, MPI_INT64_T, 0, number_of(job.rank, 0), NUMBERS, MPI_INT64_T,
                     MPI_REPLACE, job.window, &job.request[0]);
-    MPI_Rget_accumulate(NULL, 0, MPI_INT64_T, job.seen, words, MPI_INT64_T, 0, 0, words,
+    MPI_Rget_accumulate(NULL, 0, MPI_INT64_T, job.snapshot, words, MPI_INT64_T, 0, 0, words,
                         MPI_INT64_T, MPI_NO_OP, job.window, &job.request[1]);
 }
 
@@ -137,13 +137,13 @@ static void read_window(void)
 {
     double done = 0;
     job.sending = false;
-    job.failed |= job.seen[FAILED] != 0;
+    job.failed |= job.snapshot[FAILED] != 0;
     for (int r = 0; r < ranks_watched(); r++) {
-        const int64_t beats = job.seen[number_of(r, BEATS)];
+        const int64_t beats = job.snapshot[number_of(r, BEATS)];
         if (beats != job.known_beats[r])
             job.since_beat[r] = 0;
         job.known_beats[r] = beats;
-        done += (double)job.seen[number_of(r, DONE)];
+        done += (double)job.snapshot[number_of(r, DONE)];
     }
     const struct br_observer *o = job.observer;
     if (job.rank == 0 && o && o->progress && job.total > 0)
@@ -483,13 +483,13 @@ static enum br_status create_window(struct br_error *err)
     job.report = br_store_take(&job.store, ranks, sizeof *job.report);
     job.bytes = br_store_take(&job.store, ranks, sizeof *job.bytes);
     job.offset = br_store_take(&job.store, ranks, sizeof *job.offset);
-    job.seen = br_store_take(&job.store, words, sizeof *job.seen);
+    job.snapshot = br_store_take(&job.store, words, sizeof *job.snapshot);
     job.known_beats = br_store_take(&job.store, ranks, sizeof *job.known_beats);
     job.since_beat = br_store_take(&job.store, ranks, sizeof *job.since_beat);
     if (job.store.failed)
         return br_no_memory(err, "the ranks");
     MPI_Errhandler handler;
-    const MPI_Aint size = job.rank == 0 ? (MPI_Aint)(words * sizeof *job.seen) : 0;
+    const MPI_Aint size = job.rank == 0 ? (MPI_Aint)(words * sizeof *job.snapshot) : 0;
     int64_t *memory;
     job.request[0] = job.request[1] = job.request[2] = MPI_REQUEST_NULL;
     MPI_Win_allocate(size, sizeof *memory, MPI_INFO_NULL, job.comm, &memory, &job.window);

@@ -9,7 +9,7 @@
 #include "base/words.h"
 #include "solver/field.h"
 
-struct run {
+struct history_run {
     const struct br_history_request *request;
     struct br_march *march;
     struct br_history_row row; /* of the level reached */
@@ -24,7 +24,7 @@ size_t br_history_stride(size_t steps, size_t most_rows)
 
 /* ---- rows ---- */
 
-static void fill_row(struct run *r)
+static void fill_row(struct history_run *r)
 {
     const size_t step = br_march_steps_done(r->march);
     const struct br_tip *tip = step > 0 ? br_march_tip(r->march) : br_march_start(r->march);
@@ -39,7 +39,7 @@ static void fill_row(struct run *r)
     };
 }
 
-static void complete_row(struct run *r)
+static void complete_row(struct history_run *r)
 {
     if (isnan(r->row.displacement[BR_BENDING]))
         r->row.displacement[BR_BENDING] = br_march_tip_displacement(r->march, BR_BENDING);
@@ -47,14 +47,14 @@ static void complete_row(struct run *r)
 
 /* ---- observers ---- */
 
-static bool is_row(const struct run *r)
+static bool is_row(const struct history_run *r)
 {
     const struct br_history_request *q = r->request;
     return q->stride && (r->row.step % q->stride == 0 || r->row.step == q->steps);
 }
 
 /* Whether this is a chosen level; true once for each. */
-static bool is_chosen(struct run *r)
+static bool is_chosen(struct history_run *r)
 {
     const struct br_history_request *q = r->request;
     if (r->next_level >= q->levels || q->level[r->next_level] != r->row.step)
@@ -63,7 +63,7 @@ static bool is_chosen(struct run *r)
     return true;
 }
 
-static enum br_status report(struct run *r, struct br_error *err)
+static enum br_status report(struct history_run *r, struct br_error *err)
 {
     const struct br_history_request *q = r->request;
     const struct br_history_observer *end = q->observer + q->observers;
@@ -86,7 +86,7 @@ static enum br_status report(struct run *r, struct br_error *err)
 /* ---- the march ---- */
 
 /* Appends the velocities before a march left the range of numbers. */
-static void append_last(const struct run *r, struct br_error *err)
+static void append_last(const struct history_run *r, struct br_error *err)
 {
     if (!err)
         return;
@@ -99,7 +99,7 @@ static void append_last(const struct run *r, struct br_error *err)
 
 /* Gives the last good row to `row`, if it has not had it: without the bending displacement, which
  * is lost. */
-static void report_last(const struct run *r)
+static void report_last(const struct history_run *r)
 {
     const struct br_history_request *q = r->request;
     if (!q->stride || is_row(r))
@@ -109,7 +109,7 @@ static void report_last(const struct run *r)
             q->observer[i].row(q->observer[i].self, &r->row, NULL);
 }
 
-static enum br_status begin(struct run *r, struct br_error *err)
+static enum br_status begin(struct history_run *r, struct br_error *err)
 {
     const struct br_history_request *q = r->request;
     enum br_status status = BR_OK;
@@ -120,7 +120,7 @@ static enum br_status begin(struct run *r, struct br_error *err)
     return status;
 }
 
-static enum br_status march(struct run *r, struct br_error *err)
+static enum br_status march(struct history_run *r, struct br_error *err)
 {
     enum br_status status = begin(r, err);
     if (!status)
@@ -143,7 +143,7 @@ static enum br_status march(struct run *r, struct br_error *err)
 enum br_status br_history_run(const struct br_history_request *q, struct br_march **out,
                               struct br_history_end *end, struct br_error *err)
 {
-    struct run r = {.request = q};
+    struct history_run r = {.request = q};
     if (out)
         *out = NULL;
     *end = (struct br_history_end){0};

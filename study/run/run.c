@@ -5,11 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-
 /* Element-steps between two reports of progress. */
 enum { BETWEEN_SIGNS = 1 << 18 };
 
-struct run {
+struct observed_run {
     const struct br_run_request *request;
     struct br_run_report *report;
     struct br_step_checker *checker;
@@ -20,7 +19,7 @@ struct run {
 
 static enum br_status start_checks(void *self, struct br_march *march, struct br_error *err)
 {
-    struct run *r = self;
+    struct observed_run *r = self;
     struct br_run_report *report = r->report;
     if (r->request->progress)
         br_march_stop_when(march, r->request->progress->stop, r->request->progress->self);
@@ -39,8 +38,9 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
 }
 
 /* The certificate first: its message is more specific. */
-static enum br_status judge_step(const struct br_run_report *report, const struct br_certificate *c,
-                                 double imbalance, struct br_error *verdict)
+static enum br_status verify_step(const struct br_run_report *report,
+                                  const struct br_certificate *c, double imbalance,
+                                  struct br_error *verdict)
 {
     const enum br_status status = br_certificate_check(c, &report->limits, verdict);
     if (status || imbalance <= report->energy_limit)
@@ -51,13 +51,13 @@ static enum br_status judge_step(const struct br_run_report *report, const struc
                    imbalance, report->energy_limit);
 }
 
-static void check_step(struct run *r, const struct br_history_row *row, double imbalance)
+static void check_step(struct observed_run *r, const struct br_history_row *row, double imbalance)
 {
     struct br_run_report *report = r->report;
     const struct br_certificate c = br_step_checker_step(r->checker);
     struct br_error verdict = {0};
     br_certificate_merge(&report->worst, &c);
-    if (!judge_step(report, &c, imbalance, &verdict))
+    if (!verify_step(report, &c, imbalance, &verdict))
         return;
     if (report->bad_steps++ == 0)
         br_fail(&report->verdict, BR_VERDICT, "step %zu, t = %.15g s: %.400s", row->step, row->time,
@@ -69,7 +69,7 @@ static enum br_status watch_checks(void *self, const struct br_march *march,
 {
     (void)march;
     (void)err;
-    struct run *r = self;
+    struct observed_run *r = self;
     if (row->step == 0)
         return BR_OK;
     struct br_run_report *report = r->report;
@@ -85,7 +85,7 @@ static enum br_status watch_progress(void *self, const struct br_march *march,
                                      const struct br_history_row *row, struct br_error *err)
 {
     (void)march;
-    const struct br_run_request *q = ((struct run *)self)->request;
+    const struct br_run_request *q = ((struct observed_run *)self)->request;
     const size_t every = BETWEEN_SIGNS / q->n + 1;
     if (row->step % every != 0)
         return BR_OK;
@@ -99,7 +99,8 @@ static enum br_status watch_progress(void *self, const struct br_march *march,
 enum { MOST_OBSERVERS = BR_MOST_OUTPUTS + 3 };
 
 /* In the order in which they are called. */
-static size_t list_observers(struct run *r, struct br_history_observer list[MOST_OBSERVERS])
+static size_t list_observers(struct observed_run *r,
+                             struct br_history_observer list[MOST_OBSERVERS])
 {
     const struct br_run_request *q = r->request;
     size_t count = 0;
@@ -118,7 +119,7 @@ static size_t list_observers(struct run *r, struct br_history_observer list[MOST
 
 /* The last good state's energies: where the works were not summed, those of the last step, which a
  * march that failed has lost. */
-static enum br_status read_energies(struct run *r, const struct br_march *march,
+static enum br_status read_energies(struct observed_run *r, const struct br_march *march,
                                     struct br_error *err)
 {
     struct br_run_report *p = r->report;
@@ -149,7 +150,7 @@ static bool is_result(enum br_status status)
     return status == BR_NOT_FINITE || status == BR_SINGULAR;
 }
 
-static enum br_status march(struct run *r, struct br_error *err)
+static enum br_status march(struct observed_run *r, struct br_error *err)
 {
     const struct br_run_request *q = r->request;
     struct br_run_report *p = r->report;
@@ -192,7 +193,7 @@ enum br_status br_run(const struct br_run_request *q, struct br_run_report *p, s
         .summed = q->check || q->energies,
         .checked = q->check,
     };
-    struct run r = {.request = q, .report = p};
+    struct observed_run r = {.request = q, .report = p};
     enum br_status status = br_model_select(q->scene, q->wanted, &p->marched, err);
     if (status)
         return status;

@@ -74,7 +74,7 @@ struct br_run_report {
 
     bool checked;
     struct br_certificate worst, limits;
-    double energy_worst, energy_limit; /* imbalance of a step; INFINITY: it is not judged, since
+    double energy_worst, energy_limit; /* imbalance of a step; INFINITY: it is not checked, since
                                           round-off alone may be too much */
     struct br_error verdict;           /* BR_OK, or the first step beyond a limit */
     size_t bad_steps;

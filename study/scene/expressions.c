@@ -94,7 +94,7 @@ static enum br_status read_product(const struct br_scene_value *v, struct br_loa
     static const char *const expected = "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'";
     static const char *const words[] = {"shape", "history"};
     char suggestion[BR_SUGGESTION];
-    bool seen[2] = {false, false};
+    bool found[2] = {false, false};
     const yaml_node_pair_t *end = v->node->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = v->node->data.mapping.pairs.start; p < end; p++) {
         const yaml_node_t *name = yaml_document_get_node(v->r->yaml.document, p->key);
@@ -107,16 +107,16 @@ static enum br_status read_product(const struct br_scene_value *v, struct br_loa
         if (!shape && strcmp(br_yaml_text(name), "history") != 0)
             return BR_REFUSE_VALUE(&at, "found '%s', %s%s", br_yaml_text(name), expected,
                                    br_suggestion(br_yaml_text(name), words, 2, suggestion));
-        if (seen[shape])
+        if (found[shape])
             return BR_REFUSE_VALUE(&at, "'%s' is given twice", br_yaml_text(name));
-        seen[shape] = true;
+        found[shape] = true;
         factor.unit = shape ? "1" : v->unit;
         const enum br_status status =
             read_function(&factor, shape, shape ? &load->term[0].space : &load->term[0].time);
         if (status)
             return status;
     }
-    return seen[0] && seen[1] ? BR_OK : BR_REFUSE_VALUE(v, "%s", expected);
+    return found[0] && found[1] ? BR_OK : BR_REFUSE_VALUE(v, "%s", expected);
 }
 
 /* A load: a product, or an expression, which is split into a sum of products. */

@@ -230,7 +230,7 @@ static enum br_status scan(const struct br_scene *s, const struct br_function *f
     const struct br_box box = {{0, s->length}, {0, s->duration}};
     struct br_error inner;
     enum br_status status = br_must_be_finite(f, box, &inner);
-    if (!status && f->uses_x != f->uses_t && br_function_guard(f, 0))
+    if (!status && f->uses_x != f->uses_t && br_function_switching(f, 0))
         status = refuse_single_values(f, f->uses_x ? BR_X : BR_T, box, &inner);
     if (!status)
         return BR_OK;

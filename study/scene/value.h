@@ -18,11 +18,11 @@ struct br_scene_reader {
 /* ---- keys that --set has set (set.c) ---- */
 
 /* Sets the keys of r->yaml.set in the document. A key that it has not is added, so that its reader
- * judges it. verifies: the part `verify` is read, too. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+ * checks it. verifies: the part `verify` is read, too. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_scene_put_sets(const struct br_scene_reader *r, bool verifies);
 
-/* Puts r->yaml.set behind the title of the scene: no result of it is taken for one of the file. Fails
- * with BR_NO_MEMORY. */
+/* Puts r->yaml.set behind the title of the scene: no result of it is taken for one of the file.
+ * Fails with BR_NO_MEMORY. */
 enum br_status br_scene_add_to_title(const struct br_scene_reader *r);
 
 /* Writes the document, which is empty then, as a text. *text (out): owned by the caller; NULL after

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The seconds that trials will take: the costs of the registry (solver/method.h), times the pace of
- * this machine, which a few steps show; and the costs of judges (study/grid/batches.h). */
+ * this machine, which a few steps show; and the costs of references (study/grid/batches.h). */
 #include <math.h>
 
 #include "base/clock.h"
 #include "base/each.h"
 #include "solver/scene.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "study/grid/batches.h"
 #include "study/trade/trial.h"
 
@@ -36,6 +36,9 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
     struct br_trial_request little = *r;
     struct br_trial probe = trial[i];
     struct br_trial_cost cost;
+    pace[i] = r->pace;
+    if (r->pace > 0)
+        return BR_OK;
     for (size_t j = 0; j < i; j++)
         if (trial[j].tolerance == trial[i].tolerance &&
             (trial[i].tolerance == 0 || trial[j].named == trial[i].named)) {
@@ -57,27 +60,29 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
     return BR_OK;
 }
 
-/* ---- the judge ---- */
+/* ---- the reference ---- */
 
-enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
-                                    struct br_error *err)
+enum br_status br_trials_prepare_reference(const struct br_trial_request *r, void **self,
+                                           struct br_error *err)
 {
-    const struct br_judge *judge = br_trials_judge(r);
+    const struct br_reference *reference_kind = br_trials_reference(r);
     const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
-    struct br_judge_request request = {.scene = r->scene,
-                                       .levels = 1,
-                                       .lead = 1,
-                                       .stop = o->stop,
-                                       .stop_self = o->self,
-                                       .preparing = o->preparing};
+    struct br_reference_request request = {.scene = r->scene,
+                                           .levels = 1,
+                                           .lead = 1,
+                                           .stop = o->stop,
+                                           .stop_self = o->self,
+                                           .preparing = o->preparing};
     *self = NULL;
-    return !judge->create || judge->nests ? BR_OK : judge->create(self, &request, err);
+    return !reference_kind->create || reference_kind->nests
+               ? BR_OK
+               : reference_kind->create(self, &request, err);
 }
 
-void br_trials_forget_judge(const struct br_trial_request *r, void *self)
+void br_trials_release_reference(const struct br_trial_request *r, void *self)
 {
     if (self)
-        br_trials_judge(r)->free(self);
+        br_trials_reference(r)->free(self);
 }
 
 static bool on_one_mesh(const struct br_trial *a, const struct br_trial *b)
@@ -85,14 +90,15 @@ static bool on_one_mesh(const struct br_trial *a, const struct br_trial *b)
     return a->at.n == b->at.n && a->named->method.axial_degree == b->named->method.axial_degree;
 }
 
-/* Seconds of the judge for trial i: levels on a mesh that no trial before it has and, if the judge
- * marches for each mesh, its march. */
-static double judged(const struct br_trial_request *r, const struct br_trial *trial, size_t i)
+/* Seconds of the reference for trial i: levels on a mesh that no trial before it has and, if the
+ * reference marches for each mesh, its march. */
+static double reference_seconds(const struct br_trial_request *r, const struct br_trial *trial,
+                                size_t i)
 {
     static const size_t none = 0;
     const struct br_resolution *at = &trial[i].at;
     struct br_study s = {.scene = r->scene,
-                         .judge = br_trials_judge(r),
+                         .reference_kind = br_trials_reference(r),
                          .reference_method = r->reference_method,
                          .reference = r->reference,
                          .n_count = 1,
@@ -105,10 +111,10 @@ static double judged(const struct br_trial_request *r, const struct br_trial *tr
             mesh = false;
             levels = levels && trial[j].at.steps != at->steps;
         }
-    const double whole = s.judge->create ? 1e-9 * br_reference_cost(&s) : 0;
+    const double whole = s.reference_kind->create ? 1e-9 * br_reference_cost(&s) : 0;
     s.steps = &none;
-    const double set_up = s.judge->create ? 1e-9 * br_reference_cost(&s) : 0;
-    return levels * (whole - set_up) + (mesh && s.judge->nests) * set_up;
+    const double set_up = s.reference_kind->create ? 1e-9 * br_reference_cost(&s) : 0;
+    return levels * (whole - set_up) + (mesh && s.reference_kind->nests) * set_up;
 }
 
 /* ---- a trial ---- */
@@ -133,28 +139,28 @@ static double marches(const struct br_trial_request *r, const struct br_trial *t
 /* What the seconds of trials are made from. */
 struct forecasting {
     const struct br_trial_request *request;
-    double *march; /* s, without the judge */
+    double *march; /* s, without the reference */
 };
 
-static void foresee(const struct forecasting *f, struct br_trial *trial, size_t i)
+static void estimate(const struct forecasting *f, struct br_trial *trial, size_t i)
 {
-    trial[i].foreseen =
-        f->march[i] + judged(f->request, trial, i) / br_threads(f->request->threads);
+    trial[i].estimated =
+        f->march[i] + reference_seconds(f->request, trial, i) / br_threads(f->request->threads);
 }
 
 static double sum_of(const struct br_trial *trial, size_t count)
 {
     double sum = 0;
     for (size_t i = 0; i < count; i++)
-        sum += trial[i].end == BR_TRIAL_LEFT ? 0 : trial[i].foreseen;
+        sum += trial[i].end == BR_TRIAL_LEFT ? 0 : trial[i].estimated;
     return sum;
 }
 
-/* Leaves out a trial; returns the seconds that this saves. What the judge did for it passes on to
- * the next trial on its mesh, and to the next one of its levels. */
+/* Leaves out a trial; returns the seconds that this saves. What the reference did for it passes on
+ * to the next trial on its mesh, and to the next one of its levels. */
 static double leave(const struct forecasting *f, struct br_trial *trial, size_t count, size_t left)
 {
-    double saved = trial[left].foreseen;
+    double saved = trial[left].estimated;
     bool mesh = false, levels = false;
     trial[left].end = BR_TRIAL_LEFT;
     for (size_t i = left + 1; i < count && !levels; i++) {
@@ -164,9 +170,9 @@ static double leave(const struct forecasting *f, struct br_trial *trial, size_t 
             continue;
         mesh = true;
         levels = same;
-        saved += trial[i].foreseen;
-        foresee(f, trial, i);
-        saved -= trial[i].foreseen;
+        saved += trial[i].estimated;
+        estimate(f, trial, i);
+        saved -= trial[i].estimated;
     }
     return saved;
 }
@@ -181,7 +187,7 @@ static void leave_out(const struct forecasting *f, struct br_trial *trial, size_
         size_t dearest = count;
         for (size_t i = 0; i < count; i++)
             if (trial[i].end != BR_TRIAL_LEFT &&
-                (dearest == count || trial[i].foreseen > trial[dearest].foreseen))
+                (dearest == count || trial[i].estimated > trial[dearest].estimated))
                 dearest = i;
         forecast->seconds -= leave(f, trial, count, dearest);
         forecast->planned--;
@@ -191,9 +197,9 @@ static void leave_out(const struct forecasting *f, struct br_trial *trial, size_
     forecast->left_seconds = all - forecast->seconds;
 }
 
-enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
-                                 const struct br_trial_request *r,
-                                 struct br_trial_forecast *forecast, struct br_error *err)
+enum br_status br_trials_estimate(struct br_trial *trial, size_t count,
+                                  const struct br_trial_request *r,
+                                  struct br_trial_forecast *forecast, struct br_error *err)
 {
     *forecast = (struct br_trial_forecast){.planned = count};
     struct forecasting f = {.request = r, .march = br_allocate(count, sizeof *f.march)};
@@ -205,7 +211,7 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
         f.march[i] = marches(r, &trial[i], pace[i]);
     }
     for (size_t i = 0; i < count && !status; i++)
-        foresee(&f, trial, i);
+        estimate(&f, trial, i);
     forecast->seconds = status ? 0 : sum_of(trial, count);
     if (!status && r->seconds > 0)
         leave_out(&f, trial, count, forecast);

@@ -7,7 +7,7 @@
 
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
-#include "study/foresee/prediction.h"
+#include "study/estimate/prediction.h"
 #include "study/grid/sweep.h"
 
 /* ---- the sources of error, in the order in which the chain removes them ---- */
@@ -34,9 +34,9 @@ static const char *const names[BR_SOURCES] = {
 /* Removes a source from a run of the scene and returns NULL; or returns, in a few words, why the
  * run has no such source. */
 static const char *take_away(enum br_source source, const struct br_scene *scene,
-                             const struct br_stand *refined, struct br_stand *stand)
+                             const struct br_variant *refined, struct br_variant *variant)
 {
-    struct br_method *m = &stand->method;
+    struct br_method *m = &variant->method;
     const bool friction = source == BR_SOURCE_ITERATION || source == BR_SOURCE_SMOOTHING;
     if (friction && (scene->friction.law == BR_FRICTIONLESS || !scene->bending.modelled))
         return "the scene has no friction";
@@ -69,10 +69,10 @@ static const char *take_away(enum br_source source, const struct br_scene *scene
         m->scheme = refined->method.scheme;
         m->tolerance = refined->method.tolerance;
         m->contact = br_contact_rule_find("implicit");
-        stand->steps = refined->steps;
+        variant->steps = refined->steps;
         break;
     case BR_SOURCE_SPACE:
-        stand->continuous = true;
+        variant->continuous = true;
         break;
     case BR_SOURCES:
         break;
@@ -82,57 +82,58 @@ static const char *take_away(enum br_source source, const struct br_scene *scene
 
 /* ---- distances of two marches, or of a march from the solution: studies of one cell ---- */
 
-/* `heads` distances, each in all norms. */
-enum { MOST_HEADS = BR_SOURCES + 3 };
+/* `cases` distances, each in all norms. */
+enum { MOST_CASES = BR_SOURCES + 3 };
 struct distances {
     const struct br_split *split;
-    struct br_study study[BR_MOST_NORMS][MOST_HEADS];
-    size_t steps[MOST_HEADS]; /* of the cells */
-    size_t heads;
+    struct br_study study[BR_MOST_NORMS][MOST_CASES];
+    size_t steps[MOST_CASES]; /* of the cells */
+    size_t cases;
 };
 
 static void distances_free(struct distances *d)
 {
     for (size_t m = 0; d && m < d->split->norms; m++)
-        for (size_t head = 0; head < d->heads; head++)
-            br_study_clear(&d->study[m][head]);
+        for (size_t index = 0; index < d->cases; index++)
+            br_study_clear(&d->study[m][index]);
     free(d);
 }
 
 /* Adds the distance of two links; returns its index. */
-static size_t add_distance(struct distances *d, const struct br_stand *from,
-                           const struct br_stand *to)
+static size_t add_distance(struct distances *d, const struct br_variant *from,
+                           const struct br_variant *to)
 {
     const struct br_split *split = d->split;
-    const size_t head = d->heads++;
-    d->steps[head] = from->steps;
+    const size_t index = d->cases++;
+    d->steps[index] = from->steps;
     for (size_t m = 0; m < split->norms; m++)
-        d->study[m][head] = (struct br_study){
+        d->study[m][index] = (struct br_study){
             .scene = split->scene,
             .norm = split->norm[m],
             .method = from->method,
-            .judge = to->continuous ? split->judge : &br_judge_fine,
+            .reference_kind = to->continuous ? split->reference_kind : &br_reference_fine,
             .reference_method = to->method,
             .reference = {to->continuous ? 0 : split->at.n, to->continuous ? 0 : to->steps},
             .n_count = 1,
             .k_count = 1,
             .n = &split->at.n,
-            .steps = &d->steps[head],
-            .next_norm = m + 1 < split->norms ? &d->study[m + 1][head] : NULL,
+            .steps = &d->steps[index],
+            .next_norm = m + 1 < split->norms ? &d->study[m + 1][index] : NULL,
         };
-    return head;
+    return index;
 }
 
 /* The failure of a distance: of the reference, or of the cell. */
-static const struct br_error *failure_of(const struct distances *d, size_t head)
+static const struct br_error *failure_of(const struct distances *d, size_t index)
 {
-    const struct br_study *s = &d->study[0][head];
+    const struct br_study *s = &d->study[0][index];
     return s->failure.status || !s->cell ? &s->failure : &s->cell[0].failure;
 }
 
-static bool failed(const struct distances *d, size_t head)
+static bool failed(const struct distances *d, size_t index)
 {
-    return failure_of(d, head)->status || !isfinite(d->study[0][head].cell[0].error[BR_PART_TOTAL]);
+    return failure_of(d, index)->status ||
+           !isfinite(d->study[0][index].cell[0].error[BR_PART_TOTAL]);
 }
 
 /* ---- the refinement in time ---- */
@@ -145,31 +146,31 @@ enum { FINE_STEPS = 20000, LEAST_RATIO = 8 };
 
 static const double good_enough = 1e-8; /* relative to the solution */
 
-static struct br_stand start(const struct br_split *split)
+static struct br_variant start(const struct br_split *split)
 {
-    return (struct br_stand){.method = split->method, .steps = split->at.steps};
+    return (struct br_variant){.method = split->method, .steps = split->at.steps};
 }
 
 /* The run without any source but the elements, marched by this scheme. */
 static struct br_refinement refined_by(const struct br_split *split,
                                        const struct br_time_scheme *scheme)
 {
-    struct br_refinement r = {.stand = start(split)};
-    struct br_stand stand = r.stand;
-    r.stand.method.scheme = scheme;
+    struct br_refinement r = {.variant = start(split)};
+    struct br_variant variant = r.variant;
+    r.variant.method.scheme = scheme;
     if (scheme->adaptive) {
-        r.stand.method.tolerance = finest_tolerance;
+        r.variant.method.tolerance = finest_tolerance;
         snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
     } else {
-        r.stand.steps *= LEAST_RATIO;
-        while (r.stand.steps < FINE_STEPS)
-            r.stand.steps *= 2; /* even: a march of half as many steps gives its error */
+        r.variant.steps *= LEAST_RATIO;
+        while (r.variant.steps < FINE_STEPS)
+            r.variant.steps *= 2; /* even: a march of half as many steps gives its error */
         snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,
-                 br_time_step(split->scene, r.stand.steps));
+                 br_time_step(split->scene, r.variant.steps));
     }
     for (enum br_source source = 0; source < BR_SOURCE_SPACE; source++)
-        take_away(source, split->scene, &r.stand, &stand);
-    r.stand = stand;
+        take_away(source, split->scene, &r.variant, &variant);
+    r.variant = variant;
     return r;
 }
 
@@ -184,10 +185,10 @@ struct refining {
     struct br_error failure; /* the first */
 };
 
-static void take_errors(const struct distances *d, size_t head, by_norm error)
+static void take_errors(const struct distances *d, size_t index, by_norm error)
 {
     for (size_t m = 0; m < d->split->norms; m++)
-        memcpy(error[m], d->study[m][head].cell[0].error, sizeof error[m]);
+        memcpy(error[m], d->study[m][index].cell[0].error, sizeof error[m]);
 }
 
 /* Measures how far a march refined by a scheme is from one with ten times the tolerance, or half as
@@ -197,14 +198,14 @@ static enum br_status try_refinement(struct br_split *split, const struct br_tim
                                      struct refining *r, struct br_error *err)
 {
     const struct br_refinement fine = refined_by(split, scheme);
-    struct br_stand coarse = fine.stand;
+    struct br_variant coarse = fine.variant;
     coarse.method.tolerance *= scheme->adaptive ? 10 : 1;
     coarse.steps /= scheme->adaptive ? 1 : 2;
     struct distances *d = br_allocate(1, sizeof *d);
     if (!d)
         return br_no_memory(err, "the parts of the error");
     d->split = split;
-    add_distance(d, &coarse, &fine.stand);
+    add_distance(d, &coarse, &fine.variant);
     const struct br_study *s = d->study[0];
     const enum br_status status = br_study_run_each(d->study[0], 1, r->threads, &r->observer, err);
     const bool is_known = !status && !failed(d, 0);
@@ -244,17 +245,17 @@ static enum br_status refine(struct br_split *split, struct refining *r, struct 
 
 struct chain {
     struct distances *d;
-    size_t whole;    /* head: the run and the solution */
-    size_t audit[2]; /* heads: riccati against plain, for the run and before the first source in
-                        time */
-    size_t link[BR_SOURCES]; /* heads */
+    size_t whole;                /* case: the run and the solution */
+    size_t solver_difference[2]; /* cases: riccati against plain, for the run and before the first
+                        source in time */
+    size_t link[BR_SOURCES];     /* cases */
     struct refining refining;
 };
 
 /* Two solvers of the same step: their difference is round-off, as the march amplifies it. */
-static size_t add_audit(struct chain *c, const struct br_stand *stand)
+static size_t add_solver_difference(struct chain *c, const struct br_variant *variant)
 {
-    struct br_stand plain = *stand, riccati = *stand;
+    struct br_variant plain = *variant, riccati = *variant;
     plain.method.solver = &br_plain;
     riccati.method.solver = &br_riccati;
     return add_distance(c->d, &plain, &riccati);
@@ -262,20 +263,20 @@ static size_t add_audit(struct chain *c, const struct br_stand *stand)
 
 static void add_links(struct br_split *split, struct chain *c)
 {
-    struct br_stand stand = start(split);
-    const struct br_stand solution = {.method = split->method, .continuous = true};
-    c->whole = add_distance(c->d, &stand, &solution);
-    c->audit[0] = add_audit(c, &stand);
+    struct br_variant variant = start(split);
+    const struct br_variant solution = {.method = split->method, .continuous = true};
+    c->whole = add_distance(c->d, &variant, &solution);
+    c->solver_difference[0] = add_solver_difference(c, &variant);
     for (enum br_source source = 0; source < BR_SOURCES; source++) {
         struct br_share *share = &split->share[source];
-        struct br_stand next = stand;
+        struct br_variant next = variant;
         share->name = names[source];
-        share->none = take_away(source, split->scene, &split->refined.stand, &next);
+        share->none = take_away(source, split->scene, &split->refined.variant, &next);
         if (source == BR_SOURCE_TIME)
-            c->audit[1] = add_audit(c, &stand);
+            c->solver_difference[1] = add_solver_difference(c, &variant);
         if (!share->none)
-            c->link[source] = add_distance(c->d, &stand, &next);
-        stand = next;
+            c->link[source] = add_distance(c->d, &variant, &next);
+        variant = next;
     }
 }
 
@@ -297,30 +298,31 @@ static enum br_status check_links(const struct br_split *split, const struct cha
     return BR_OK;
 }
 
-/* The round-off of a march, measured or, where the audit fails, predicted; and the errors of the
- * refined march and of the judge. */
+/* The round-off of a march, measured or, where the difference of the solvers fails, predicted; and
+ * the errors of the refined march and of the reference. */
 static double floor_of(const struct br_split *split, const struct chain *c,
                        const struct br_study *s, bool in_time, size_t norm, enum br_part part)
 {
-    const size_t audit = c->audit[in_time];
-    double floor = failed(c->d, audit) ? split->predicted_round_off * split->scale[norm]
-                                       : 2 * c->d->study[norm][audit].cell[0].error[part];
+    const size_t solver_difference = c->solver_difference[in_time];
+    double floor = failed(c->d, solver_difference)
+                       ? split->predicted_round_off * split->scale[norm]
+                       : 2 * c->d->study[norm][solver_difference].cell[0].error[part];
     if (in_time)
         floor += c->refining.error[norm][part];
-    if (s->judge == split->judge)
-        floor += br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
+    if (s->reference_kind == split->reference_kind)
+        floor += br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, part);
     return floor;
 }
 
 /* in_time: the component needs the refined march. */
-static void set_share(const struct br_split *split, const struct chain *c, size_t head,
+static void set_share(const struct br_split *split, const struct chain *c, size_t index,
                       bool in_time, struct br_share *share)
 {
-    const struct br_study *s = &c->d->study[0][head];
-    take_errors(c->d, head, share->error);
+    const struct br_study *s = &c->d->study[0][index];
+    take_errors(c->d, index, share->error);
     for (size_t m = 0; m < split->norms; m++)
         for (enum br_part part = 0; part < BR_PARTS; part++)
-            share->floor[m][part] = floor_of(split, c, &c->d->study[m][head], in_time, m, part);
+            share->floor[m][part] = floor_of(split, c, &c->d->study[m][index], in_time, m, part);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         share->tip[kind] = s->cell[0].tip[kind] - s->reference_tip[kind];
 }
@@ -363,7 +365,7 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
                             struct br_error *err)
 {
     struct chain c = {.refining.threads = threads};
-    split->judge = br_judge_best(split->scene);
+    split->reference_kind = br_reference_best(split->scene);
     if (split->at.n < 1 || split->at.steps < 1)
         return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
                        split->at.n < 1 ? "n" : "the number of time steps");
@@ -377,7 +379,7 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
         return br_no_memory(err, "the parts of the error");
     c.d->split = split;
     add_links(split, &c);
-    status = br_study_run_each(c.d->study[0], c.d->heads, threads, observer, err);
+    status = br_study_run_each(c.d->study[0], c.d->cases, threads, observer, err);
     if (!status)
         status = check_links(split, &c, err);
     if (!status) {

@@ -24,7 +24,7 @@ enum br_source {
 };
 
 /* A link of the chain from a run to the solution. */
-struct br_stand {
+struct br_variant {
     struct br_method method;
     size_t steps;    /* time levels; a multiple of the run's */
     bool continuous; /* the continuous problem; the other fields are unused */
@@ -32,8 +32,8 @@ struct br_stand {
 
 /* A march with next to no time error, on the same mesh and with the same laws. */
 struct br_refinement {
-    struct br_stand stand; /* its scheme, tolerance and steps are used */
-    char name[64];         /* "adaptive, tolerance 1e-11" */
+    struct br_variant variant; /* its scheme, tolerance and steps are used */
+    char name[64];             /* "adaptive, tolerance 1e-11" */
 };
 
 /* One component of the error, the sum of the components' norms, or the whole. */
@@ -54,7 +54,7 @@ struct br_split {
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
     /* out; in: zeros */
-    const struct br_judge *judge; /* of the whole and of the last component */
+    const struct br_reference *reference_kind; /* of the whole and of the last component */
     struct br_share share[BR_SOURCES];
     struct br_share whole;
     struct br_share sum; /* its norms are at least the whole's, its tip is; without floors */
@@ -66,7 +66,7 @@ struct br_split {
 };
 
 /* Marches the chain, all its links at once on `threads` threads (0: all cores). Fails with
- * BR_NOT_FINITE where the run fails or no judge can promise a solution of the scene, and as
+ * BR_NOT_FINITE where the run fails or no reference can promise a solution of the scene, and as
  * br_study_run does. */
 enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
                             struct br_error *err);

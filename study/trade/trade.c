@@ -144,11 +144,11 @@ static double expected_seconds(const struct br_trade *t, const struct br_trial *
     double seconds = 0;
     for (const struct br_trial *o = t->trial; o < t->trial + t->count; o++)
         if (o->named == trial->named && br_trial_seconds(o) > 0)
-            seconds = br_trial_seconds(o) * trial->foreseen / o->foreseen;
+            seconds = br_trial_seconds(o) * trial->estimated / o->estimated;
     return seconds;
 }
 
-/* A goal far above the reference's own error alone can be judged. */
+/* A goal far above the reference's own error alone can be resolved. */
 static enum br_status check_reference(const struct br_trade *t, struct br_error *err)
 {
     double own = INFINITY;
@@ -167,7 +167,7 @@ static enum br_status check_reference(const struct br_trade *t, struct br_error 
 static int by_work(const void *a, const void *b)
 {
     const struct br_trial *x = a, *y = b;
-    const int work = (x->foreseen > y->foreseen) - (x->foreseen < y->foreseen);
+    const int work = (x->estimated > y->estimated) - (x->estimated < y->estimated);
     return work ? work : (x->named > y->named) - (x->named < y->named);
 }
 
@@ -178,14 +178,14 @@ static enum br_status run_waves(struct br_trade *t, struct br_error *err)
     const size_t all = t->count;
     enum br_status status = BR_OK;
     for (size_t i = 0; i < all; i++)
-        t->trial[i].foreseen = br_trial_work(t->request.scene, &t->trial[i]);
+        t->trial[i].estimated = br_trial_work(t->request.scene, &t->trial[i]);
     qsort(t->trial, all, sizeof *t->trial, by_work);
     t->count = 0;
     for (size_t next = 0; next < all && !status;) {
         const size_t done = t->count;
-        const double most = 3 * t->trial[next].foreseen;
+        const double most = 3 * t->trial[next].estimated;
         const double allowed = allowed_seconds(t);
-        for (; next < all && t->trial[next].foreseen <= most; next++)
+        for (; next < all && t->trial[next].estimated <= most; next++)
             if (expected_seconds(t, &t->trial[next]) <= allowed)
                 t->trial[t->count++] = t->trial[next];
         status = br_trials_run(t->trial + done, t->count - done, &t->request, err);
@@ -225,7 +225,7 @@ static void add_around(struct br_trade *t, size_t best)
         for (int j = t->finer_steps ? first : 0; j <= (t->finer_steps ? last : 0); j++) {
             struct br_trial trial = beside(&t->trial[best], i, j);
             size_t same = 0;
-            trial.foreseen = br_trial_work(t->request.scene, &trial);
+            trial.estimated = br_trial_work(t->request.scene, &trial);
             while (same < t->count && !br_trials_same(&t->trial[same], &trial))
                 same++;
             if (same == t->count && expected_seconds(t, &trial) <= allowed)
@@ -252,16 +252,16 @@ static enum br_status refine(struct br_trade *t, struct br_error *err)
 
 /* ---- all of it ---- */
 
-/* The judge's set-up and the forecast itself count: as seconds of this thread, which do not depend
- * on other work of the machine. */
-enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
+/* The reference's set-up and the forecast itself count: as seconds of this thread, which do not
+ * depend on other work of the machine. */
+enum br_status br_trade_estimate(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds(), begin = br_thread_seconds(), seconds = t->request.seconds;
-    enum br_status status = br_trials_keep_judge(&t->request, &t->judge, err);
+    enum br_status status = br_trials_prepare_reference(&t->request, &t->reference, err);
     if (seconds > 0)
         t->request.seconds = fmax(seconds - (br_thread_seconds() - begin), seconds / 10);
     if (!status)
-        status = br_trials_foresee(t->trial, t->count, &t->request, &t->forecast, err);
+        status = br_trials_estimate(t->trial, t->count, &t->request, &t->forecast, err);
     t->request.seconds = seconds;
     t->wall_seconds = br_seconds() - start;
     t->forecast.seconds += br_thread_seconds() - begin;
@@ -284,12 +284,12 @@ enum br_status br_trade_run(struct br_trade *t, struct br_error *err)
 
 void br_trade_clear(struct br_trade *t)
 {
-    br_trials_forget_judge(&t->request, t->judge);
+    br_trials_release_reference(&t->request, t->reference);
     free(t->trial);
     free(t->front);
     t->trial = NULL;
     t->front = NULL;
-    t->judge = NULL;
+    t->reference = NULL;
     t->count = 0;
 }
 

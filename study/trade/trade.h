@@ -42,7 +42,7 @@ struct br_trade {
     /* Likewise of each named method. */
     size_t best_of[BR_MOST_NAMED_METHODS][BR_TRADE_DIGITS];
     struct br_trial_forecast forecast;
-    void *judge;         /* kept since br_trade_foresee; owned */
+    void *reference;     /* kept since br_trade_estimate; owned */
     double wall_seconds; /* of all of it */
 };
 
@@ -53,10 +53,10 @@ struct br_trade {
 enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_grid *grid,
                                 struct br_error *err);
 
-/* Forecasts the seconds of the trials by `request`. Fails as br_trials_foresee does. */
-enum br_status br_trade_foresee(struct br_trade *trade, struct br_error *err);
+/* Forecasts the seconds of the trials by `request`. Fails as br_trials_estimate does. */
+enum br_status br_trade_estimate(struct br_trade *trade, struct br_error *err);
 
-/* Runs the trials and chooses the best; after br_trade_foresee. Fails as br_trials_run does, or
+/* Runs the trials and chooses the best; after br_trade_estimate. Fails as br_trials_run does, or
  * with BR_BAD_INPUT: the reference's own error is not far below the goal. */
 enum br_status br_trade_run(struct br_trade *trade, struct br_error *err);
 void br_trade_clear(struct br_trade *trade);

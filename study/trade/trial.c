@@ -7,8 +7,8 @@
 
 #include "base/clock.h"
 #include "base/each.h"
+#include "study/estimate/warnings.h"
 #include "study/fit/fit.h"
-#include "study/foresee/warnings.h"
 #include "study/grid/sweep.h"
 
 const char *const br_trial_end_names[BR_TRIAL_ENDS] = {
@@ -92,7 +92,7 @@ static bool is_even(const struct br_method *m)
 }
 
 /* Seconds of the whole march with its set-up, as far as its steps show. */
-static double foreseen(const struct clocked *c)
+static double estimated(const struct clocked *c)
 {
     const double steps = br_thread_seconds() - c->start;
     const double done = (double)br_march_steps_done(c->march), all = (double)c->trial->at.steps;
@@ -101,7 +101,7 @@ static double foreseen(const struct clocked *c)
 
 static bool is_over(const struct clocked *c)
 {
-    return c->request->time_limit > 0 && !(foreseen(c) <= c->request->time_limit);
+    return c->request->time_limit > 0 && !(estimated(c) <= c->request->time_limit);
 }
 
 /* Asked by br_march_step within the steps of an adaptive scheme. */
@@ -124,7 +124,7 @@ static enum br_status check_clock(struct clocked *c, struct br_error *err)
     c->trial->end = BR_TRIAL_OVER;
     return br_fail(&c->trial->failure, BR_VERDICT,
                    "over the time limit of %g s: at least %.2g s, by %zu of %zu time levels",
-                   c->request->time_limit, foreseen(c), br_march_steps_done(c->march),
+                   c->request->time_limit, estimated(c), br_march_steps_done(c->march),
                    c->trial->at.steps);
 }
 
@@ -245,7 +245,7 @@ static double work_of(const void *self, size_t i)
     const struct br_trial *t = &all->trial[i];
     if (t->end == BR_TRIAL_LEFT)
         return 0;
-    return t->foreseen > 0 ? t->foreseen : br_trial_work(all->request->scene, t);
+    return t->estimated > 0 ? t->estimated : br_trial_work(all->request->scene, t);
 }
 
 static void begin(struct br_trial *t)
@@ -260,7 +260,7 @@ static void begin(struct br_trial *t)
 
 /* ---- errors ---- */
 
-/* Complete trials as cells of studies: one study for each mesh and degree, so that the judge
+/* Complete trials as cells of studies: one study for each mesh and degree, so that the reference
  * samples that mesh once, or more, where the time levels have too few in common. Each cell has its
  * own method. All arrays are owned. */
 struct groups {
@@ -303,7 +303,7 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
                                    .norm = r->norm,
                                    .method = g->method[c],
                                    .cell_method = &g->method[c],
-                                   .judge = br_trials_judge(r),
+                                   .reference_kind = br_trials_reference(r),
                                    .reference_method = r->reference_method,
                                    .reference = r->reference,
                                    .n_count = 1,
@@ -315,12 +315,12 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
     }
 }
 
-/* The judge's own error and its round-off. */
+/* The reference's own error and its round-off. */
 static double own_error(const struct br_study *s)
 {
     const double known =
-        br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
-    return isfinite(known) ? known + s->judged_by.round_off * s->reference_scale : NAN;
+        br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, BR_PART_TOTAL);
+    return isfinite(known) ? known + s->reference_report.round_off * s->reference_scale : NAN;
 }
 
 static void take_cell(struct br_trial *t, const struct br_study *s, const struct br_cell *cell)
@@ -364,18 +364,19 @@ static void clear(struct groups *g)
     free(g->method);
 }
 
-const struct br_judge *br_trials_judge(const struct br_trial_request *r)
+const struct br_reference *br_trials_reference(const struct br_trial_request *r)
 {
-    return r->judge ? r->judge : br_judge_best(r->scene);
+    return r->reference_kind ? r->reference_kind : br_reference_best(r->scene);
 }
 
-/* Judges the complete trials. */
-static enum br_status judge_all(struct br_trial *trial, size_t count,
-                                const struct br_trial_request *request, struct br_error *err)
+/* Finds the errors of the complete trials. */
+static enum br_status find_errors(struct br_trial *trial, size_t count,
+                                  const struct br_trial_request *request, struct br_error *err)
 {
-    const struct br_judge *judge = br_trials_judge(request);
-    if (!judge->create)
-        return br_fail(err, BR_BAD_INPUT, "there is no reference for this scene: %s", judge->title);
+    const struct br_reference *reference_kind = br_trials_reference(request);
+    if (!reference_kind->create)
+        return br_fail(err, BR_BAD_INPUT, "there is no reference for this scene: %s",
+                       reference_kind->title);
     if (count == 0)
         return BR_OK;
     struct groups g = {.study = br_allocate(count, sizeof *g.study),
@@ -415,5 +416,5 @@ enum br_status br_trials_run(struct br_trial *trial, size_t count,
                                  .self = &(struct trials){trial, &own}};
     enum br_status status = br_each(&each, err);
     share = (struct br_observer_share){request->observer, 0.5, 0.5};
-    return status ? status : judge_all(trial, count, &own, err);
+    return status ? status : find_errors(trial, count, &own, err);
 }

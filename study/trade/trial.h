@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trials measure the cost and the error of a result. A trial is one named method at one resolution;
- * its march is timed alone, and a judge gives its errors.
+ * its march is timed alone, and a reference gives its errors.
  *
  * Seconds are those of the processor in one thread, the least of several repeats after a warm-up.
  * Errors come from br_study_run, as in the cells that `study` shows. */
@@ -14,11 +14,11 @@
 /* How a trial ended. */
 enum br_trial_end {
     BR_TRIAL_DONE,
-    BR_TRIAL_DOUBTFUL, /* the judge's own error is not far below the trial's */
+    BR_TRIAL_DOUBTFUL, /* the reference's own error is not far below the trial's */
     BR_TRIAL_UNSTABLE, /* lagged contact beyond its limit */
     BR_TRIAL_OVER,     /* takes longer than the time limit */
     BR_TRIAL_FAILED,
-    BR_TRIAL_LEFT, /* left out to save time, by br_trials_foresee */
+    BR_TRIAL_LEFT, /* left out to save time, by br_trials_estimate */
     BR_TRIAL_ENDS
 };
 extern const char *const br_trial_end_names[BR_TRIAL_ENDS];
@@ -37,13 +37,13 @@ struct br_trial {
     struct br_resolution at; /* of an adaptive named method, at.steps are the sampled levels */
     double tolerance;        /* of an adaptive named method; otherwise 0 */
     bool printed;            /* the paper's method at a resolution of its printed tables */
-    double foreseen;         /* by br_trials_foresee, s; 0: not forecast */
+    double estimated;        /* by br_trials_estimate, s; 0: not forecast */
     /* out */
     enum br_trial_end end;
     struct br_trial_cost cost;
     double error[BR_PARTS];  /* in the request's norm and its unit; NaN: none */
     double scale;            /* the norm of the solution, same unit */
-    double own;              /* the judge's own error, same unit; NaN: not known */
+    double own;              /* the reference's own error, same unit; NaN: not known */
     struct br_error failure; /* why it is BR_TRIAL_FAILED or BR_TRIAL_OVER */
 };
 
@@ -56,14 +56,15 @@ struct br_trial br_trial_at(const struct br_named_method *named, size_t n, size_
 /* How trials are run. All borrowed. */
 struct br_trial_request {
     const struct br_scene *scene;
-    const struct br_judge *judge;      /* NULL: br_judge_best of the scene */
-    struct br_method reference_method; /* of a judge that nests */
-    struct br_resolution reference;    /* likewise */
+    const struct br_reference *reference_kind; /* NULL: br_reference_best of the scene */
+    struct br_method reference_method;         /* of a reference that nests */
+    struct br_resolution reference;            /* likewise */
     const struct br_norm *norm;
     size_t repeats;                     /* timed marches of a trial, at least 1 */
     double repeat_seconds;              /* no more repeats after this time, s */
     double time_limit;                  /* of one march with its set-up, s; 0: none */
     double seconds;                     /* of all trials, about; 0: no limit */
+    double pace;                        /* s, of a second of br_trial_work; 0: a few steps tell */
     int threads;                        /* of the errors; 0: all cores */
     const struct br_observer *observer; /* NULL: nobody */
 };
@@ -71,7 +72,7 @@ struct br_trial_request {
 /* The default request: l2, 3 repeats within 0.01 s, 10 s a march. */
 struct br_trial_request br_trial_request_default(const struct br_scene *scene);
 
-/* Estimated seconds of all trials on an idle machine: marches, repeats and the judge. */
+/* Estimated seconds of all trials on an idle machine: marches, repeats and the reference. */
 struct br_trial_forecast {
     double seconds;      /* of the planned trials */
     double left_seconds; /* of the trials that are left out */
@@ -84,20 +85,22 @@ double br_trial_work(const struct br_scene *scene, const struct br_trial *trial)
 
 /* Forecasts the seconds of trials by their work and a few steps. Where they exceed
  * request->seconds, the dearest trials end as BR_TRIAL_LEFT, and br_trials_run does not run them.
- * Fails with BR_NO_MEMORY, BR_INTERRUPTED, or as the judge does. */
-enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
-                                 const struct br_trial_request *request,
-                                 struct br_trial_forecast *forecast, struct br_error *err);
+ * Fails with BR_NO_MEMORY, BR_INTERRUPTED, or as the reference does. */
+enum br_status br_trials_estimate(struct br_trial *trial, size_t count,
+                                  const struct br_trial_request *request,
+                                  struct br_trial_forecast *forecast, struct br_error *err);
 
-/* Creates a judge, *self (out), that keeps its results for all later calls; NULL: not needed. Fails
- * as the judge does; forget it even then. */
-enum br_status br_trials_keep_judge(const struct br_trial_request *request, void **self,
-                                    struct br_error *err);
-void br_trials_forget_judge(const struct br_trial_request *request, void *self); /* accepts NULL */
+/* Creates a reference, *self (out), that keeps its results for all later calls; NULL: not needed.
+ * Fails as the reference does; release it even then. */
+enum br_status br_trials_prepare_reference(const struct br_trial_request *request, void **self,
+                                           struct br_error *err);
+void br_trials_release_reference(const struct br_trial_request *request,
+                                 void *self); /* accepts NULL */
 
-/* Runs trials: times all, one after the other, then judges the complete ones, all at once. A march
- * that fails is a result, and a march over the limit is ended as soon as that is sure. Fails with
- * BR_BAD_INPUT (the judge cannot judge this scene), BR_NO_MEMORY, BR_INTERRUPTED. */
+/* Runs trials: times all, one after the other, then finds the errors of the complete ones, all at
+ * once. A march that fails is a result, and a march over the limit is ended as soon as that is
+ * sure. Fails with BR_BAD_INPUT (there is no reference of this scene), BR_NO_MEMORY,
+ * BR_INTERRUPTED. */
 enum br_status br_trials_run(struct br_trial *trial, size_t count,
                              const struct br_trial_request *request, struct br_error *err);
 
@@ -110,8 +113,8 @@ bool br_trials_same(const struct br_trial *a, const struct br_trial *b);
 enum br_status br_trial_march(struct br_trial *trial, const struct br_trial_request *request,
                               struct br_trial_cost *cost, struct br_error *err);
 
-/* The judge of the request, or the best judge of the scene. */
-const struct br_judge *br_trials_judge(const struct br_trial_request *request);
+/* The reference of the request, or the best reference of the scene. */
+const struct br_reference *br_trials_reference(const struct br_trial_request *request);
 
 /* Seconds of set-up and march; NaN: the march is not complete. */
 double br_trial_seconds(const struct br_trial *trial);
@@ -119,8 +122,8 @@ double br_trial_seconds(const struct br_trial *trial);
 /* The error over the norm of the solution; NaN: none. */
 double br_trial_relative(const struct br_trial *trial);
 
-/* An upper bound of the relative error: the judge's own error is added. NaN: the trial has no error
- * that counts. */
+/* An upper bound of the relative error: the reference's own error is added. NaN: the trial has no
+ * error that counts. */
 double br_trial_bound(const struct br_trial *trial);
 
 /* The method that a trial marches with: its named method's, with the trial's tolerance. */

@@ -14,7 +14,7 @@ struct section {
     enum br_verify_kind kind;
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
-    size_t first, heads; /* heads chains, from `first` on */
+    size_t first, cases; /* cases chains, from `first` on */
 };
 
 /* Everything that is marched. */
@@ -22,7 +22,7 @@ struct plan {
     struct section *section;
     size_t sections;
     struct br_study *study; /* the first norms of all chains, then the second ones, ... */
-    size_t heads, norms;    /* in the longest chain */
+    size_t cases, norms;    /* in the longest chain */
 };
 
 static const struct br_verify_study *study_of(const struct section *s)
@@ -44,15 +44,15 @@ static void add_section(struct plan *plan, const struct br_scene_check *check,
                         enum br_verify_kind kind)
 {
     struct section *s = &plan->section[plan->sections];
-    *s = (struct section){.check = check, .kind = kind, .first = plan->heads};
+    *s = (struct section){.check = check, .kind = kind, .first = plan->cases};
     const struct br_verify_study *v = study_of(s);
     if (v->count == 0)
         return;
     for (size_t i = 0; i < v->expectations; i++)
         if (norm_index(s, v->expectation[i].norm) == s->norms)
             s->norm[s->norms++] = v->expectation[i].norm;
-    s->heads = kind == BR_VERIFY_JOINT ? 1 : v->count - 1;
-    plan->heads += s->heads;
+    s->cases = kind == BR_VERIFY_JOINT ? 1 : v->count - 1;
+    plan->cases += s->cases;
     plan->norms = s->norms > plan->norms ? s->norms : plan->norms;
     plan->sections++;
 }
@@ -65,7 +65,7 @@ struct br_study br_check_study(const struct br_scene_check *check, enum br_verif
     return (struct br_study){
         .scene = check->scene,
         .method = v->method,
-        .judge = joint ? br_judge_best(check->scene) : &br_judge_fine,
+        .reference_kind = joint ? br_reference_best(check->scene) : &br_reference_fine,
         .reference_method = v->method,
         .reference = joint ? (struct br_resolution){0, 0}
                            : (struct br_resolution){v->n[h + 1], v->steps[h + 1]},
@@ -77,16 +77,16 @@ struct br_study br_check_study(const struct br_scene_check *check, enum br_verif
     };
 }
 
-/* The study of a section's head h in norm m. */
+/* The study of a section's case h in norm m. */
 static struct br_study *study_in(const struct plan *plan, const struct section *s, size_t h,
                                  size_t m)
 {
-    return &plan->study[m * plan->heads + s->first + h];
+    return &plan->study[m * plan->cases + s->first + h];
 }
 
 static void fill_section(const struct plan *plan, const struct section *s)
 {
-    for (size_t h = 0; h < s->heads; h++)
+    for (size_t h = 0; h < s->cases; h++)
         for (size_t m = 0; m < s->norms; m++) {
             struct br_study *study = study_in(plan, s, h, m);
             *study = br_check_study(s->check, s->kind, h);
@@ -104,7 +104,7 @@ static enum br_status make_plan(struct plan *plan, const struct br_scene_check *
     for (size_t i = 0; i < count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
             add_section(plan, &checks[i], (enum br_verify_kind)kind);
-    plan->study = br_allocate(plan->heads * plan->norms, sizeof *plan->study);
+    plan->study = br_allocate(plan->cases * plan->norms, sizeof *plan->study);
     if (!plan->study)
         return br_no_memory(err, "the check");
     for (size_t i = 0; i < plan->sections; i++)
@@ -114,7 +114,7 @@ static enum br_status make_plan(struct plan *plan, const struct br_scene_check *
 
 static void clear_plan(struct plan *plan)
 {
-    for (size_t i = 0; plan->study && i < plan->heads * plan->norms; i++)
+    for (size_t i = 0; plan->study && i < plan->cases * plan->norms; i++)
         br_study_clear(&plan->study[i]);
     free(plan->study);
     free(plan->section);
@@ -151,7 +151,7 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
         failure = &cell->failure;
         p.error = cell->error[e->part];
         p.flag = cell->flag[e->part];
-        if (p.flag == BR_FLAG_NONE && study->judged_by.unstable)
+        if (p.flag == BR_FLAG_NONE && study->reference_report.unstable)
             p.flag = BR_FLAG_UNSTABLE; /* the march that it is compared with */
     }
     if (s->kind == BR_VERIFY_SPACE)
@@ -182,7 +182,7 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
         c->point[i] = point_at(plan, s, i, e);
     const enum br_status status = br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
     if (!status)
-        br_case_judge(c);
+        br_case_decide(c);
     return status;
 }
 
@@ -191,7 +191,7 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
 static enum br_status check_verifiable(const struct plan *plan, const struct section *s,
                                        struct br_error *err)
 {
-    for (size_t h = 0; h < s->heads; h++) {
+    for (size_t h = 0; h < s->cases; h++) {
         const struct br_error *failure = &plan->study[s->first + h].failure;
         if (failure->status && (failure->status == BR_BAD_INPUT || s->kind == BR_VERIFY_JOINT))
             return br_fail(err, BR_BAD_INPUT,
@@ -213,9 +213,9 @@ static void add_cost(const struct br_study *study, const struct br_scene *scene,
         check->seconds += study->cell[i].seconds;
         check->element_steps += fields * (double)at.n * (double)at.steps;
     }
-    if (!study->judge->nests)
+    if (!study->reference_kind->nests)
         return;
-    check->seconds += study->judged_by.seconds;
+    check->seconds += study->reference_report.seconds;
     check->element_steps += fields * (double)study->reference.n * (double)study->reference.steps;
 }
 
@@ -225,7 +225,7 @@ static enum br_status conclude_section(const struct plan *plan, const struct sec
     const struct br_verify_study *v = study_of(s);
     struct br_check *check = s->check->check;
     enum br_status status = check_verifiable(plan, s, err);
-    for (size_t h = 0; h < s->heads && !status; h++) {
+    for (size_t h = 0; h < s->cases && !status; h++) {
         for (size_t m = 0; m < s->norms; m++)
             if (!study_in(plan, s, h, m)->failure.status)
                 br_flag_beside(study_in(plan, s, h, m));
@@ -271,7 +271,7 @@ enum br_status br_check_run(const struct br_scene_check *checks, size_t count, i
     struct plan plan = {0};
     enum br_status status = make_plan(&plan, checks, count, err);
     if (!status)
-        status = br_study_run_each(plan.study, plan.heads, threads, observer, err);
+        status = br_study_run_each(plan.study, plan.cases, threads, observer, err);
     for (size_t i = 0; i < count && !status; i++)
         status = conclude_check(&plan, &checks[i], err);
     for (size_t i = 0; i < count && status; i++)

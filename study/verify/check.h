@@ -27,9 +27,9 @@ enum br_status br_scene_check_begin(struct br_scene_check *check, const char *pa
 void br_scene_check_clear(struct br_scene_check *check);
 
 /* Checks scenes against what is expected of them (verify.h), all at once: marches, measures,
- * judges, on `threads` threads (0: all cores); the verdicts do not depend on their number. A march
- * that fails is a verdict; a scene that cannot be verified has a `failure`, and the others go on.
- * Fails as br_study_run_each does. */
+ * finds the verdicts, on `threads` threads (0: all cores); the verdicts do not depend on their
+ * number. A march that fails is a verdict; a scene that cannot be verified has a `failure`, and the
+ * others go on. Fails as br_study_run_each does. */
 enum br_status br_check_run(const struct br_scene_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
 /* The study that is marched for pair h of neighbours, or for the joint path (h = 0), but for its

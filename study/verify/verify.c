@@ -103,11 +103,11 @@ void br_verify_expect_default(const struct br_scene *scene, struct br_verify *ve
 {
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         struct br_verify_study *v = &verify->study[kind];
-        const bool apart = kind == BR_VERIFY_SPACE;
+        const bool by_field = kind == BR_VERIFY_SPACE;
         v->expectations = 0;
         *v->silent = '\0';
-        for (enum br_part part = apart ? BR_PART_AXIAL : BR_PART_TOTAL;
-             part <= (apart ? BR_PART_BENDING : BR_PART_TOTAL); part++)
+        for (enum br_part part = by_field ? BR_PART_AXIAL : BR_PART_TOTAL;
+             part <= (by_field ? BR_PART_BENDING : BR_PART_TOTAL); part++)
             if (br_models(scene, part))
                 expect(scene, v, (enum br_verify_kind)kind, part);
         v->count = v->expectations ? CELLS : 0;

@@ -13,15 +13,16 @@
 /* Puts the name of a reference, its own error and its round-off. own: NaN where it is not known. */
 static void say_reference(struct br_document *d, const struct br_study *s, double own)
 {
-    const double floor = s->judged_by.round_off * s->reference_scale;
+    const double floor = s->reference_report.round_off * s->reference_scale;
     const double stated =
-        br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
-    br_put_more(d, "Reference: %s %s, ", s->judge->name, s->judge->nests ? "run" : "solution");
+        br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, BR_PART_TOTAL);
+    br_put_more(d, "Reference: %s %s, ", s->reference_kind->name,
+                s->reference_kind->nests ? "run" : "solution");
     if (!isfinite(own))
         br_put_more(d, "accuracy not known, since the joint fit does not describe the errors");
-    else if (s->auditor)
+    else if (s->reference_check)
         br_put_more(d, "accurate to %.1e (measured against the %s solution)", own,
-                    s->auditor->name);
+                    s->reference_check->name);
     else
         br_put_more(d, "accurate to %.1e (by %s)", own,
                     isfinite(stated) ? "its own estimate" : "the joint fit");
@@ -93,7 +94,7 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             "Our errors (reference: %s) DIFFER from the printed ones by more than 5 %% in %zu of "
             "%zu cells: ours over printed is %.2g to %.2g. The largest deviation is at n = %zu, k "
             "= %g s: ours %.3e, printed %.3e.",
-            s->judge->name, differ, compared, least, most, s->cell[farthest].at.n,
+            s->reference_kind->name, differ, compared, least, most, s->cell[farthest].at.n,
             br_step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
             r->printed[farthest]);
     if (differ && pairs)
@@ -109,22 +110,22 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
     const struct br_study *s = r->fitted;
     char text[64];
     for (int i = 0; i < BR_AXES; i++) {
-        const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
-        if (!seen->asked)
+        const struct br_observed_order *observed = &r->observed[BR_PART_TOTAL][i];
+        if (!observed->asked)
             continue;
-        const struct br_theory *t = &seen->theory;
+        const struct br_theory *t = &observed->theory;
         br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
-        if (isfinite(seen->order.value))
-            br_put_more(d, "%s, ", br_order_text(&seen->order, text, sizeof text));
-        br_put_more(d, "%s", seen->remark);
+        if (isfinite(observed->order.value))
+            br_put_more(d, "%s, ", br_order_text(&observed->order, text, sizeof text));
+        br_put_more(d, "%s", observed->remark);
         if (!isnan(t->order))
             br_put_more(d, "; theory %s", br_range_text(t->order, t->highest, text, sizeof text));
-        if (isnan(t->order) && isnan(seen->order.value))
+        if (isnan(t->order) && isnan(observed->order.value))
             br_put_more(d, "; theory: none");
-        if (*t->reason && !(isnan(t->order) && isfinite(seen->order.value)))
+        if (*t->reason && !(isnan(t->order) && isfinite(observed->order.value)))
             br_put_more(d, " (%s)", t->reason);
-        if (isfinite(seen->order.value) && *seen->by)
-            br_put_more(d, "; measured from %s", seen->by);
+        if (isfinite(observed->order.value) && *observed->by)
+            br_put_more(d, "; measured from %s", observed->by);
         br_put_more(d, ".");
     }
 
@@ -144,15 +145,15 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
     say_flags(d, s);
     for (int i = 0; i < (r->exact ? 2 : 1); i++) {
         const struct br_study *of = i ? r->study : s;
-        if (of->judged_by.unstable)
+        if (of->reference_report.unstable)
             br_put_answer(d,
                           "The %s reference is beyond the stability limit of the lagged contact: "
                           "do not trust it.",
-                          of->judge->name);
+                          of->reference_kind->name);
     }
 
     const double k = br_time_step(s->scene, s->steps[s->k_count - 1]);
-    const struct br_judge_report *by = &s->judged_by;
+    const struct br_reference_report *by = &s->reference_report;
     if (by->shortest.length > 0 && by->shortest.length < k)
         br_put_answer(d,
                       "In the exact solution the %s%s for %.2g s from t = %.4g s on. Steps of %g s "
@@ -168,17 +169,17 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
 
 /* ---- notes and facts ---- */
 
-/* Puts the reference that judges a study. */
-static void put_judge(struct br_document *d, const char *label, const struct br_study *s)
+/* Puts the reference of a study. */
+static void put_reference_line(struct br_document *d, const char *label, const struct br_study *s)
 {
     char method[BR_METHOD_TEXT];
-    if (s->judge->nests)
-        br_put_note(d, "%s %s, %s: N = %zu, K = %g s; %s.", label, s->judge->name, s->judge->title,
-                    s->reference.n, br_reference_step(s),
+    if (s->reference_kind->nests)
+        br_put_note(d, "%s %s, %s: N = %zu, K = %g s; %s.", label, s->reference_kind->name,
+                    s->reference_kind->title, s->reference.n, br_reference_step(s),
                     br_method_text(&(struct br_meshes){s->scene, &s->reference.n, 1},
                                    &s->reference_method, method));
     else
-        br_put_note(d, "%s %s, %s.", label, s->judge->name, s->judge->title);
+        br_put_note(d, "%s %s, %s.", label, s->reference_kind->name, s->reference_kind->title);
 }
 
 void br_put_study_notes(struct br_document *d, const struct br_report *r)
@@ -191,9 +192,9 @@ void br_put_study_notes(struct br_document *d, const struct br_report *r)
     br_put_note(
         d, "Cells: %s.",
         br_method_text(&(struct br_meshes){s->scene, s->n, s->n_count}, &s->method, method));
-    put_judge(d, "Reference:", r->fitted);
+    put_reference_line(d, "Reference:", r->fitted);
     if (r->exact) { /* the study that is not fitted */
-        put_judge(d, "Second reference:", s);
+        put_reference_line(d, "Second reference:", s);
         br_put_note(d, "%s", "");
         say_reference(d, s, s->reference_error[BR_PART_TOTAL]);
         say_flags(d, s);

@@ -35,7 +35,7 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
         if (!j->converged)
             br_put_shown(d, "none");
         for (int a = 0; a < BR_AXES; a++) {
-            const bool sure = r->seen[part][a].joint; /* else another order is the answer */
+            const bool sure = r->observed[part][a].joint; /* else another order is the answer */
             BR_PUT_ESTIMATE(d, &j->order[a],
                             sure     ? br_order_text(&j->order[a], text, sizeof text)
                             : claims ? "not used"
@@ -100,9 +100,9 @@ static void put_reference(struct br_document *d, const char *key, const struct b
     static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
     const char *unit = s->norm->unit;
     char method[64];
-    br_hide_fact(d, br_text(s->judge->name), NULL, "%s.kind", key);
-    br_hide_fact(d, br_text(s->judge->title), NULL, "%s.title", key);
-    if (s->judge->nests) {
+    br_hide_fact(d, br_text(s->reference_kind->name), NULL, "%s.kind", key);
+    br_hide_fact(d, br_text(s->reference_kind->title), NULL, "%s.title", key);
+    if (s->reference_kind->nests) {
         br_hide_fact(d, br_count(s->reference.n), NULL, "%s.at.n", key);
         br_hide_fact(d, br_number(br_reference_mesh(s)), "m", "%s.at.h", key);
         br_hide_fact(d, br_count(s->reference.steps), NULL, "%s.at.steps", key);
@@ -113,12 +113,13 @@ static void put_reference(struct br_document *d, const char *key, const struct b
     }
     for (enum br_part part = 0; part < BR_PARTS; part++)
         br_hide_fact(
-            d, br_number(br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part)),
+            d,
+            br_number(br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, part)),
             unit, "%s.%s", key, own[part]);
-    br_hide_fact(d, br_number(s->reference_error[BR_PART_TOTAL]), unit, "%s.audited_error", key);
+    br_hide_fact(d, br_number(s->reference_error[BR_PART_TOTAL]), unit, "%s.measured_error", key);
     br_hide_fact(d, br_number(s->reference_scale), unit, "%s.scale", key);
-    br_hide_fact(d, br_number(s->judged_by.round_off), NULL, "%s.round_off", key);
-    br_hide_fact(d, br_number(s->judged_by.seconds), "s", "%s.seconds", key);
+    br_hide_fact(d, br_number(s->reference_report.round_off), NULL, "%s.round_off", key);
+    br_hide_fact(d, br_number(s->reference_report.seconds), "s", "%s.seconds", key);
 }
 
 void br_put_study_facts(struct br_document *d, const struct br_report *r)
@@ -135,26 +136,27 @@ void br_put_study_facts(struct br_document *d, const struct br_report *r)
         put_reference(d, "exact_reference", r->exact);
     for (enum br_part part = 0; part < BR_PARTS; part++)
         for (int i = 0; i < BR_AXES; i++) {
-            const struct br_seen_order *seen = &r->seen[part][i];
+            const struct br_observed_order *observed = &r->observed[part][i];
             const char *name = br_part_names[part], *in = br_axis_letters[i];
-            if (!seen->asked)
+            if (!observed->asked)
                 continue;
-            br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
-            br_hide_fact(d, br_number(seen->order.low), NULL, "orders.%s.%s.low", name, in);
-            br_hide_fact(d, br_number(seen->order.high), NULL, "orders.%s.%s.high", name, in);
-            br_hide_fact(d, br_number(seen->theory.order), NULL, "orders.%s.%s.theory", name, in);
-            br_hide_fact(d, br_number(seen->theory.highest), NULL, "orders.%s.%s.theory_highest",
-                         name, in);
-            br_hide_fact(d, br_text(seen->theory.reason), NULL, "orders.%s.%s.theory_reason", name,
+            br_hide_fact(d, br_number(observed->order.value), NULL, "orders.%s.%s.order", name, in);
+            br_hide_fact(d, br_number(observed->order.low), NULL, "orders.%s.%s.low", name, in);
+            br_hide_fact(d, br_number(observed->order.high), NULL, "orders.%s.%s.high", name, in);
+            br_hide_fact(d, br_number(observed->theory.order), NULL, "orders.%s.%s.theory", name,
                          in);
-            br_hide_fact(d, br_text(seen->by), NULL, "orders.%s.%s.by", name, in);
-            br_hide_fact(d, br_text(seen->remark), NULL, "orders.%s.%s.remark", name, in);
+            br_hide_fact(d, br_number(observed->theory.highest), NULL,
+                         "orders.%s.%s.theory_highest", name, in);
+            br_hide_fact(d, br_text(observed->theory.reason), NULL, "orders.%s.%s.theory_reason",
+                         name, in);
+            br_hide_fact(d, br_text(observed->by), NULL, "orders.%s.%s.by", name, in);
+            br_hide_fact(d, br_text(observed->remark), NULL, "orders.%s.%s.remark", name, in);
         }
     br_hide_fact(d, br_count(finest->at.n), NULL, "finest.n");
     br_hide_fact(d, br_number(br_step_of(fitted, finest)), "s", "finest.k");
     br_hide_fact(d, br_number(finest->error[BR_PART_TOTAL]), fitted->norm->unit, "finest.error");
     br_hide_fact(d, br_number(br_relative_of(fitted, finest, BR_PART_TOTAL)), NULL,
                  "finest.relative");
-    br_hide_fact(d, br_text(fitted->judge->name), NULL, "fitted");
+    br_hide_fact(d, br_text(fitted->reference_kind->name), NULL, "fitted");
     br_hide_fact(d, br_number(r->wall_seconds), "s", "wall_seconds");
 }

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/estimate/prediction.h"
 #include "study/fit/fit.h"
-#include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
 #include "tables/beam/report_parts.h"

@@ -162,7 +162,7 @@ void br_report_split(const struct br_split *split, size_t count,
         br_hide(d, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
         br_hide(d, "predicted_round_off", NULL, br_number(s->predicted_round_off));
         br_hide(d, "unstable", NULL, br_truth(s->unstable));
-        br_hide(d, "reference", NULL, br_text(s->judge->name));
+        br_hide(d, "reference", NULL, br_text(s->reference_kind->name));
         br_hide(d, "refined", NULL, br_text(s->refined.name));
     }
 
@@ -182,7 +182,7 @@ void br_report_split(const struct br_split *split, size_t count,
                 "A part is the distance of two marches, or of a march from the solution (%s). The "
                 "second march has one source of error less. So the parts add up to the whole: as "
                 "functions, and at the tip (x = L, t = T) as numbers with signs.",
-                split->judge->name);
+                split->reference_kind->name);
     br_put_note(d, "<: the part is below this floor, which comes from round-off and from the "
                    "errors of the marches that measure it.");
     if (split->scene->remark)

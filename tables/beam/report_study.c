@@ -59,13 +59,13 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
     const bool fitted = s == r->fitted;
     char title[200];
     const struct grid g = {
-        .key = fitted ? br_part_names[part] : s->judge->name,
+        .key = fitted ? br_part_names[part] : s->reference_kind->name,
         .study = s,
         .part = part,
         .format = "%.3e",
         .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
     };
-    snprintf(title, sizeof title, "%s error against %s, %s", names[part], s->judge->name,
+    snprintf(title, sizeof title, "%s error against %s, %s", names[part], s->reference_kind->name,
              s->norm->unit);
     put_grid(d, r, &g, title);
 }
@@ -84,7 +84,7 @@ static void put_grids(struct br_document *d, const struct br_report *r)
     if (!r->printed)
         return;
     put_grid(d, r, &printed, "Printed error, m^(3/2)");
-    snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->judge->name);
+    snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->reference_kind->name);
     put_grid(d, r, &ratio, title);
 }
 
@@ -111,7 +111,7 @@ static void put_cell(struct br_document *d, const struct br_report *r, const str
     const bool printed = s == r->study && part == BR_PART_TOTAL && r->printed;
     const bool marched = c->failure.status == BR_OK;
     br_put_row(d);
-    BR_PUT(d, br_text(s->judge->name), .key = "reference");
+    BR_PUT(d, br_text(s->reference_kind->name), .key = "reference");
     BR_PUT(d, br_text(br_part_names[part]), .key = "part");
     BR_PUT(d, br_count(c->at.n), .key = "n");
     BR_PUT(d, br_number(br_mesh_size(s->scene, c->at.n)), .key = "h", .unit = "m");
@@ -154,23 +154,23 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     const double error = finest->error[BR_PART_TOTAL];
     const double relative = br_relative_of(fitted, finest, BR_PART_TOTAL);
     char text[64];
-    br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
+    br_put_table(d, "observed", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         for (int i = 0; br_part_is_shown(r, part) && i < BR_AXES; i++) {
-            const struct br_seen_order *seen = &r->seen[part][i];
-            if (!seen->asked)
+            const struct br_observed_order *observed = &r->observed[part][i];
+            if (!observed->asked)
                 continue;
             br_put_row(d);
             BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
             BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
-            BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
+            BR_PUT(d, br_text(br_order_text(&observed->order, text, sizeof text)),
                    .heading = "observed [95 %]");
-            BR_PUT(
-                d,
-                br_text(br_range_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
-                .heading = "theory");
-            BR_PUT(d, br_text(seen->remark), .heading = "verdict", .flags = BR_WRAP);
-            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "measured from",
+            BR_PUT(d,
+                   br_text(br_range_text(observed->theory.order, observed->theory.highest, text,
+                                         sizeof text)),
+                   .heading = "theory");
+            BR_PUT(d, br_text(observed->remark), .heading = "verdict", .flags = BR_WRAP);
+            BR_PUT(d, br_text(*observed->by ? observed->by : NULL), .heading = "measured from",
                    .flags = BR_WRAP);
         }
         if (part != BR_PART_TOTAL)

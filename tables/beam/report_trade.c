@@ -232,14 +232,14 @@ static void put_best_of_methods(struct br_document *d, const struct br_trade *t)
     }
 }
 
-/* The first trial with an error has the norm of the solution and the judge's own error. */
-static void note_judge(struct br_document *d, const struct br_trade *t)
+/* The first trial with an error has the norm of the solution and the reference's own error. */
+static void note_reference(struct br_document *d, const struct br_trade *t)
 {
     const struct br_trial *known = t->trial;
     while (known < t->trial + t->count && !isfinite(known->scale))
         known++;
     br_put_note(d, "%s", t->request.norm->title);
-    br_put_note(d, "Reference: %s.", br_trials_judge(&t->request)->title);
+    br_put_note(d, "Reference: %s.", br_trials_reference(&t->request)->title);
     if (known == t->trial + t->count)
         return;
     br_put_note(d, "Relative errors are divided by the norm of the solution, %.4g %s.",
@@ -334,14 +334,14 @@ void br_report_trade(const struct br_trade *t, const char *words,
     }
     br_hide_fact(d, br_text(t->request.norm->name), NULL, "norm");
     br_hide_fact(d, br_text(t->request.norm->unit), NULL, "unit");
-    br_hide_fact(d, br_text(br_trials_judge(&t->request)->name), NULL, "judge");
+    br_hide_fact(d, br_text(br_trials_reference(&t->request)->name), NULL, "reference");
     br_hide_fact(d, br_count(t->request.repeats), NULL, "repeats");
     br_hide_fact(d, br_number(t->request.repeat_seconds), NULL, "repeat_seconds");
     br_hide_fact(d, br_number(t->request.time_limit), NULL, "time_limit");
     br_hide_fact(d, br_number(t->wall_seconds), NULL, "wall_seconds");
 
     br_put_section(d, "What is measured");
-    note_judge(d, t);
+    note_reference(d, t);
     br_put_note(d,
                 "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
                 "%zu marches after a warm-up. A march longer than %g s is not repeated. On %s.",

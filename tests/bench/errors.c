@@ -26,7 +26,7 @@ static struct parts run(const struct br_scene *scene, const struct br_method *me
     struct br_study study = {.scene = scene,
                              .norm = br_norms[0],
                              .method = *method,
-                             .judge = &br_judge_fine,
+                             .reference_kind = &br_reference_fine,
                              .reference_method = *method,
                              .reference = {12800, 10000},
                              .n_count = MESHES,
@@ -35,7 +35,7 @@ static struct parts run(const struct br_scene *scene, const struct br_method *me
                              .steps = steps};
     const double start = br_seconds();
     MUST(br_study_run(&study, 1, 1, NULL, &err));
-    struct parts p = {.reference = study.judged_by.seconds};
+    struct parts p = {.reference = study.reference_report.seconds};
     for (size_t i = 0; i < br_study_cells(&study); i++)
         p.cells += study.cell[i].seconds;
     p.errors = br_seconds() - start - p.reference - p.cells;

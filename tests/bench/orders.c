@@ -106,7 +106,7 @@ static const struct {
              {"signed, h and k", NULL, 1}};
 
 struct tally {
-    size_t seen, covered, wrong, passed;
+    size_t tried, covered, wrong, passed;
     double width;
 };
 
@@ -115,7 +115,7 @@ static void cover(struct tally *t, const struct br_estimate *order, double truth
     const double round_off = 1e-9;
     if (!isfinite(order->low) || !isfinite(order->high))
         return;
-    t->seen++;
+    t->tried++;
     t->covered += order->low - round_off <= truth && truth <= order->high + round_off;
     t->width += order->high - order->low;
 }
@@ -176,15 +176,15 @@ int main(void)
         for (size_t i = 0; i < STUDIES; i++)
             if (!study(kind, &t))
                 return EXIT_FAILURE;
-        printf("%-20s %8zu %8.1f %% %12.3g %8zu %8zu\n", kinds[kind].name, t.seen,
-               100 * (double)t.covered / (double)t.seen, t.width / (double)t.seen, t.wrong,
+        printf("%-20s %8zu %8.1f %% %12.3g %8zu %8zu\n", kinds[kind].name, t.tried,
+               100 * (double)t.covered / (double)t.tried, t.width / (double)t.tried, t.wrong,
                t.passed);
-        all.seen += t.seen;
+        all.tried += t.tried;
         all.covered += t.covered;
         all.wrong += t.wrong;
         all.passed += t.passed;
     }
-    printf("%-20s %8zu %8.1f %% %12s %8zu %8zu\n", "all", all.seen,
-           100 * (double)all.covered / (double)all.seen, "", all.wrong, all.passed);
+    printf("%-20s %8zu %8.1f %% %12s %8zu %8zu\n", "all", all.tried,
+           100 * (double)all.covered / (double)all.tried, "", all.wrong, all.passed);
     return EXIT_SUCCESS;
 }

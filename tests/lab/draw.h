@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the classes of random lines draw with (errors.c, unseen.c). */
+/* What the classes of random lines draw with (errors.c, held_out.c). */
 #ifndef BR_TESTS_LAB_DRAW_H
 #define BR_TESTS_LAB_DRAW_H
 
@@ -31,8 +31,8 @@ static inline double pick(struct br_random *r, const double *v, size_t n)
 #define PICK(r, ...) \
     pick(r, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double))
 
-static inline void ladder(struct br_random *r, struct br_error_line *s, size_t least, size_t most,
-                          double ratio)
+static inline void mesh_sequence(struct br_random *r, struct br_error_line *s, size_t least,
+                                 size_t most, double ratio)
 {
     s->rows = whole(r, least, most);
     const double n0 = floor(uniform(r, 4, 20));

@@ -3,7 +3,7 @@
 
 static void clean(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = order(r);
     double c = constant_of(r);
     int d = (int)whole(r, 4, 16);
@@ -12,7 +12,7 @@ static void clean(struct br_random *r, struct br_error_line *s)
 
 static void next(struct br_random *r, struct br_error_line *s, double by)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = order(r);
     double c = constant_of(r), a = uniform(r, -.5, .5) / pow(s->h[0], by);
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * pow(s->h[i], by)), 6);
@@ -30,7 +30,7 @@ static void next2(struct br_random *r, struct br_error_line *s)
 
 static void series(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, 1, 2, 4);
     double c = constant_of(r), a = uniform(r, -.5, .5), b = uniform(r, -.3, .3), h0 = s->h[0];
     EACH_ROW
@@ -67,7 +67,7 @@ static void linear(struct br_random *r, struct br_error_line *s)
 
 static void root2(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, sqrt(2));
+    mesh_sequence(r, s, 4, 8, sqrt(2));
     s->truth = order(r);
     double c = constant_of(r), a = uniform(r, -.3, .3) / s->h[0];
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
@@ -75,7 +75,7 @@ static void root2(struct br_random *r, struct br_error_line *s)
 
 static void roundoff(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 2, 3, 4);
     double c = constant_of(r);
     size_t meet = s->rows - whole(r, 1, 3);
@@ -86,7 +86,7 @@ static void roundoff(struct br_random *r, struct br_error_line *s)
 
 static void evenodd(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 9, 2);
+    mesh_sequence(r, s, 5, 9, 2);
     s->truth = order(r);
     double c = constant_of(r), a = uniform(r, .02, .2);
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + (i % 2 ? a : -a));
@@ -94,7 +94,7 @@ static void evenodd(struct br_random *r, struct br_error_line *s)
 
 static void noise(struct br_random *r, struct br_error_line *s, size_t l, size_t m, double a)
 {
-    ladder(r, s, l, m, 2);
+    mesh_sequence(r, s, l, m, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
     double c = constant_of(r);
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * exp(a * normal(r));
@@ -130,7 +130,7 @@ static void adaptive(struct br_random *r, struct br_error_line *s)
 
 static void ratio11(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 10, 1.1);
+    mesh_sequence(r, s, 6, 10, 1.1);
     s->truth = PICK(r, 1, 2, 3, 4);
     double c = constant_of(r), a = uniform(r, -.3, .3) / s->h[0];
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 6);
@@ -138,7 +138,7 @@ static void ratio11(struct br_random *r, struct br_error_line *s)
 
 static void values(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->values = true;
     s->truth = PICK(r, 1, 1.5, 2, 3, 4);
     const double limit = s->limit = uniform(r, -3, 3);
@@ -148,7 +148,7 @@ static void values(struct br_random *r, struct br_error_line *s)
 
 static void oscillate(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->values = true;
     s->truth = PICK(r, 1, 2, 3);
     const double limit = s->limit = uniform(r, -3, 3);
@@ -158,7 +158,7 @@ static void oscillate(struct br_random *r, struct br_error_line *s)
 
 static void lower(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     double p = PICK(r, 2, 3, 4), q = PICK(r, 1, 1.5, 2, 3);
     while (q >= p)
         q = PICK(r, 1, 1.5, 2);
@@ -170,7 +170,7 @@ static void lower(struct br_random *r, struct br_error_line *s)
 
 static void lowervalue(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->values = true;
     s->truth = 1;
     const double limit = s->limit = uniform(r, .5, 3);
@@ -184,7 +184,7 @@ static void lowervalue(struct br_random *r, struct br_error_line *s)
 
 static void tied(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 7, 2);
+    mesh_sequence(r, s, 4, 7, 2);
     s->truth = 1;
     double a = br_random_decades(r, 0, 1.5), c = constant_of(r);
     EACH_ROW s->e[i] = c * (a / s->h[0] * s->h[i] * s->h[i] + s->h[i]);
@@ -192,7 +192,7 @@ static void tied(struct br_random *r, struct br_error_line *s)
 
 static void floored(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
     double c = constant_of(r);
     size_t m = s->rows - whole(r, 2, 4);
@@ -202,7 +202,7 @@ static void floored(struct br_random *r, struct br_error_line *s)
 
 static void floorq(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
     double c = constant_of(r);
     size_t m = s->rows - whole(r, 2, 4);
@@ -212,7 +212,7 @@ static void floorq(struct br_random *r, struct br_error_line *s)
 
 static void saturated(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
     double c = constant_of(r), ref = s->h[s->rows - 1] / PICK(r, 1.5, 2, 4);
     EACH_ROW s->e[i] = c * (pow(s->h[i], s->truth) - pow(ref, s->truth));
@@ -220,7 +220,7 @@ static void saturated(struct br_random *r, struct br_error_line *s)
 
 static void norms(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     bool b = r->state & 4;
     s->truth = b ? 2. / 3 : 4. / 3;
     double p = b ? 1 : 2, c = constant_of(r),
@@ -230,7 +230,7 @@ static void norms(struct br_random *r, struct br_error_line *s)
 
 static void logs(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, 1, 2);
     double c = constant_of(r), m = PICK(r, 1, .5, 1);
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * pow(fabs(log(s->h[i])), m);
@@ -238,7 +238,7 @@ static void logs(struct br_random *r, struct br_error_line *s)
 
 static void change(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = order(r);
     double c = constant_of(r), at = s->h[s->rows - 1] * pow(2, uniform(r, .1, 2.5));
     EACH_ROW s->e[i] = c * fabs(pow(s->h[i], s->truth) - pow(s->h[i], s->truth + 1) / at);
@@ -246,7 +246,7 @@ static void change(struct br_random *r, struct br_error_line *s)
 
 static void changeearly(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->truth = order(r);
     double c = constant_of(r), at = s->h[1] * pow(2, uniform(r, -1, 1));
     EACH_ROW s->e[i] = c * fabs(pow(s->h[i], s->truth) - pow(s->h[i], s->truth + 1) / at);
@@ -254,7 +254,7 @@ static void changeearly(struct br_random *r, struct br_error_line *s)
 
 static void badcoarse(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
     double c = constant_of(r), a = uniform(r, -.1, .1) / s->h[0], f = br_random_decades(r, .3, 1.5);
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
@@ -263,7 +263,7 @@ static void badcoarse(struct br_random *r, struct br_error_line *s)
 
 static void unresolved(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 9, 2);
+    mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 2, 3);
     double c = constant_of(r), a = uniform(r, -.1, .1) / s->h[0];
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
@@ -275,7 +275,7 @@ static void unresolved(struct br_random *r, struct br_error_line *s)
 
 static void outlier(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 9, 2);
+    mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 2, 3);
     double c = constant_of(r), a = uniform(r, -.1, .1) / s->h[0];
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
@@ -285,7 +285,7 @@ static void outlier(struct br_random *r, struct br_error_line *s)
 
 static void locking(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 1, 2);
     double c = constant_of(r), t = s->h[whole(r, 0, 2)];
     EACH_ROW
@@ -297,7 +297,7 @@ static void locking(struct br_random *r, struct br_error_line *s)
 
 static void three(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 3, 2);
+    mesh_sequence(r, s, 3, 3, 2);
     s->truth = order(r);
     double c = constant_of(r), a = uniform(r, -.2, .2) / s->h[0];
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
@@ -335,7 +335,7 @@ static void mcrms(struct br_random *r, struct br_error_line *s)
 static void means(struct br_random *r, struct br_error_line *s, double next)
 {
     const size_t runs = whole(r, 4, 12);
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, .5, 1, 2);
     const double c = constant_of(r), a = uniform(r, -next, next) / s->h[0];
     EACH_ROW
@@ -371,7 +371,7 @@ static void mixed(struct br_random *r, struct br_error_line *s)
 
 static void nextnoise(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
     double c = constant_of(r), a = uniform(r, -.5, .8) / s->h[0];
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]) * exp(.02 * normal(r));
@@ -385,7 +385,7 @@ static void floornoise(struct br_random *r, struct br_error_line *s)
 
 static void fewlow(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 5, 2);
+    mesh_sequence(r, s, 4, 5, 2);
     s->truth = PICK(r, 1, 2);
     double c = constant_of(r), a = uniform(r, .5, 3) / s->h[0];
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
@@ -393,7 +393,7 @@ static void fewlow(struct br_random *r, struct br_error_line *s)
 
 static void layers(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->truth = 2;
     double c = constant_of(r), t = s->h[whole(r, 0, 2)];
     EACH_ROW
@@ -405,7 +405,7 @@ static void layers(struct br_random *r, struct br_error_line *s)
 
 static void constant(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = NAN;
     double c = constant_of(r), a = uniform(r, 0, .3);
     EACH_ROW s->e[i] = c * (1 + a * pow(s->h[i] / s->h[0], 2));
@@ -413,7 +413,7 @@ static void constant(struct br_random *r, struct br_error_line *s)
 
 static void grows(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = NAN;
     double c = constant_of(r), g = uniform(r, .5, 5);
     EACH_ROW s->e[i] = c * pow(s->h[i], -g) * exp(.1 * normal(r));
@@ -421,14 +421,14 @@ static void grows(struct br_random *r, struct br_error_line *s)
 
 static void scatter(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 10, 2);
+    mesh_sequence(r, s, 4, 10, 2);
     s->truth = NAN;
     EACH_ROW s->e[i] = exp(normal(r));
 }
 
 static void dipped(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     s->truth = NAN;
     double c = constant_of(r), at = s->h[s->rows - 1] * pow(2, uniform(r, .5, 2.5));
     EACH_ROW s->e[i] = c * fabs(pow(s->h[i], 2) - at * at);
@@ -448,7 +448,7 @@ static void kinked(struct br_random *r, struct br_error_line *s, double p, doubl
 
 static void drops(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 7, 9, 2);
+    mesh_sequence(r, s, 7, 9, 2);
     kinked(r, s, PICK(r, 3, 4), PICK(r, 1, 2), 3);
     const double deep = br_random_decades(r, -8, -7) / s->e[s->rows - 1];
     EACH_ROW s->e[i] = digits(deep * s->e[i], 6);
@@ -456,7 +456,7 @@ static void drops(struct br_random *r, struct br_error_line *s)
 
 static void rises(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     const double p = PICK(r, 1, 1.5, 2, 2.5);
     kinked(r, s, p, p + uniform(r, .4, 1), 2);
     EACH_ROW s->e[i] = digits(s->e[i], 5);
@@ -464,14 +464,14 @@ static void rises(struct br_random *r, struct br_error_line *s)
 
 static void kink(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 10, PICK(r, 2, 2, 1.5));
+    mesh_sequence(r, s, 6, 10, PICK(r, 2, 2, 1.5));
     const double p = PICK(r, 1.5, 2, 3, 4);
     kinked(r, s, p, p - uniform(r, .4, 1), 2);
 }
 
 static void kink3(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 10, 2);
+    mesh_sequence(r, s, 6, 10, 2);
     const double p = PICK(r, 1.5, 2, 3, 4);
     kinked(r, s, p, p - uniform(r, .4, 1), 3);
 }
@@ -479,7 +479,7 @@ static void kink3(struct br_random *r, struct br_error_line *s)
 /* The largest of two errors at two places. */
 static void maximum(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 9, 2);
+    mesh_sequence(r, s, 5, 9, 2);
     s->other = PICK(r, 2, 2.5, 3);
     s->truth = s->other - PICK(r, .5, 1);
     const double meet = s->h[s->rows - 1] * pow(2, uniform(r, 1, 2.9));
@@ -490,7 +490,7 @@ static void maximum(struct br_random *r, struct br_error_line *s)
 /* Values whose differences fall as errors of a kink do. Their limit is that of the finest rows. */
 static void kinkedvalues(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->values = true;
     const double p = PICK(r, 2, 3), q = p - PICK(r, .5, 1);
     kinked(r, s, p, q, 3); /* rows - 1 differences, so two rates of q */
@@ -509,7 +509,7 @@ static void kinkedvalues(struct br_random *r, struct br_error_line *s)
 
 static void powerlogs(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 9, 2);
+    mesh_sequence(r, s, 4, 9, 2);
     s->truth = PICK(r, 1, 2);
     const double c = constant_of(r), g = PICK(r, 1.5, 2, -1);
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * pow(fabs(log(s->h[i])), g);
@@ -517,7 +517,7 @@ static void powerlogs(struct br_random *r, struct br_error_line *s)
 
 static void halves(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 9, 2);
+    mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 1.5, 2);
     const double c = constant_of(r), a = uniform(r, -.6, 1.5), b = uniform(r, -.3, 1);
     EACH_ROW
@@ -529,7 +529,7 @@ static void halves(struct br_random *r, struct br_error_line *s)
 
 static void reference(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
     const double c = constant_of(r), a = uniform(r, -.4, .6) / s->h[0];
     const double h = s->h[s->rows - 1] / PICK(r, 1.5, 2, 4);
@@ -539,7 +539,7 @@ static void reference(struct br_random *r, struct br_error_line *s)
 
 static void plateau(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
     const double c = constant_of(r), by = uniform(r, .1, .5);
     const size_t good = s->rows - whole(r, 1, 3);
@@ -550,7 +550,7 @@ static void plateau(struct br_random *r, struct br_error_line *s)
 
 static void growingroundoff(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 8, 14, 2);
+    mesh_sequence(r, s, 8, 14, 2);
     s->truth = PICK(r, 2, 3, 4);
     const double c = constant_of(r), g = PICK(r, 1, 2);
     const size_t good = whole(r, 4, s->rows - 3);
@@ -561,7 +561,7 @@ static void growingroundoff(struct br_random *r, struct br_error_line *s)
 
 static void highorder(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 3, 2);
+    mesh_sequence(r, s, 3, 3, 2);
     s->truth = (double)whole(r, 6, 12);
     const double c = constant_of(r), a = uniform(r, -.2, .2) / s->h[0];
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
@@ -569,7 +569,7 @@ static void highorder(struct br_random *r, struct br_error_line *s)
 
 static void roundofffloor(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 10, 2);
+    mesh_sequence(r, s, 6, 10, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
     const double c = constant_of(r);
     const size_t good = s->rows - whole(r, 2, 4);
@@ -579,7 +579,7 @@ static void roundofffloor(struct br_random *r, struct br_error_line *s)
 
 static void floorvalues(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 9, 2);
+    mesh_sequence(r, s, 6, 9, 2);
     s->values = true;
     s->limit = uniform(r, -3, 3);
     s->truth = PICK(r, 1, 2, 3);
@@ -590,7 +590,7 @@ static void floorvalues(struct br_random *r, struct br_error_line *s)
 
 static void zeroorder(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 10, 2);
+    mesh_sequence(r, s, 3, 10, 2);
     const double c = constant_of(r), by = br_random_decades(r, -3, -.5);
     const int d = (int)whole(r, 2, 6);
     EACH_ROW s->e[i] = digits(c * exp(by * normal(r)), d);
@@ -598,7 +598,7 @@ static void zeroorder(struct br_random *r, struct br_error_line *s)
 
 static void turns(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 6, 10, 2);
+    mesh_sequence(r, s, 6, 10, 2);
     const double c = constant_of(r), p = PICK(r, 1, 2), g = uniform(r, .7, 3);
     const double at = s->h[s->rows - whole(r, 3, 4)];
     EACH_ROW s->e[i] = c * (pow(s->h[i] / at, p) + pow(at / s->h[i], g)) * exp(.02 * normal(r));
@@ -622,25 +622,25 @@ static void powervalues(struct br_random *r, struct br_error_line *s, double nex
 
 static void cleanlimit(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, PICK(r, 2, 2, 1.5));
+    mesh_sequence(r, s, 4, 8, PICK(r, 2, 2, 1.5));
     powervalues(r, s, 0);
 }
 
 static void cleanlimit3(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 3, PICK(r, 2, 2, 1.5));
+    mesh_sequence(r, s, 3, 3, PICK(r, 2, 2, 1.5));
     powervalues(r, s, 0);
 }
 
 static void nextlimit3(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 3, PICK(r, 2, 2, 1.5));
+    mesh_sequence(r, s, 3, 3, PICK(r, 2, 2, 1.5));
     powervalues(r, s, .5);
 }
 
 static void badlimit(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 5, 8, 2);
+    mesh_sequence(r, s, 5, 8, 2);
     powervalues(r, s, 0);
     s->e[0] += (s->e[0] - s->limit) * PICK(r, -1, 1) * br_random_decades(r, -.3, 1);
 }
@@ -648,7 +648,7 @@ static void badlimit(struct br_random *r, struct br_error_line *s)
 /* A lower power that comes up within the rows, after p - q of 1 or 2. */
 static void lowerlimit(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     powervalues(r, s, 0);
     s->truth = PICK(r, 1, 2);
     const double p = s->truth + PICK(r, 1, 2), d = uniform(r, -.3, .3);
@@ -676,20 +676,20 @@ static void rounded(struct br_random *r, struct br_error_line *s)
 
 static void rounded3(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 3, 2);
+    mesh_sequence(r, s, 3, 3, 2);
     rounded(r, s);
 }
 
 static void rounded7(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 7, 2);
+    mesh_sequence(r, s, 4, 7, 2);
     rounded(r, s);
 }
 
 /* Noise of so much of the finest difference. */
 static void noisevalues(struct br_random *r, struct br_error_line *s, double noise)
 {
-    ladder(r, s, 4, 8, 2);
+    mesh_sequence(r, s, 4, 8, 2);
     powervalues(r, s, .2);
     noise *= s->e[s->rows - 1] - s->e[s->rows - 2];
     EACH_ROW s->e[i] += noise * normal(r);
@@ -707,7 +707,7 @@ static void noiselimit20(struct br_random *r, struct br_error_line *s)
 
 static void cubics(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 8, 2);
+    mesh_sequence(r, s, 3, 8, 2);
     s->values = true;
     s->truth = 1;
     s->limit = uniform(r, -3, 3);
@@ -722,7 +722,7 @@ static void cubics(struct br_random *r, struct br_error_line *s)
 /* The integral of exp(a x) sin(b x + 1) from 0 to 1 by midpoints, trapezoids or Simpson's rule. */
 static void quadrature(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 8, 2);
+    mesh_sequence(r, s, 3, 8, 2);
     s->values = true;
     const double a = uniform(r, -2, 2), b = uniform(r, .5, 6);
     const size_t rule = br_random_index(r, 3);
@@ -747,7 +747,7 @@ static void quadrature(struct br_random *r, struct br_error_line *s)
  * method. */
 static void ode(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 8, 2);
+    mesh_sequence(r, s, 3, 8, 2);
     s->values = true;
     const double a = uniform(r, .5, 3), b = uniform(r, .5, 5), d = a * a + b * b;
     const size_t method = br_random_index(r, 3);
@@ -771,7 +771,7 @@ static void ode(struct br_random *r, struct br_error_line *s)
 
 static void diverging(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 3, 9, 2);
+    mesh_sequence(r, s, 3, 9, 2);
     s->values = true;
     const double start = uniform(r, -3, 3), c = uniform(r, -1, 1), g = uniform(r, .05, 1.5);
     EACH_ROW s->e[i] = start + c * pow(s->h[0] / s->h[i], g);
@@ -779,7 +779,7 @@ static void diverging(struct br_random *r, struct br_error_line *s)
 
 static void logvalues(struct br_random *r, struct br_error_line *s)
 {
-    ladder(r, s, 4, 10, 2);
+    mesh_sequence(r, s, 4, 10, 2);
     s->values = true;
     const double start = uniform(r, -3, 3), c = uniform(r, .1, 1) * PICK(r, -1, 1);
     const bool twice = br_random_once_in(r, 4);
@@ -796,7 +796,7 @@ const struct br_error_class br_error_classes[] = {
     {"next term h^2", BR_SMOOTH_ERRORS, next2},
     {"three terms", BR_SMOOTH_ERRORS, series},
     {"random ratios", BR_SMOOTH_ERRORS, ratios},
-    {"linear ladder", BR_SMOOTH_ERRORS, linear},
+    {"linear sequence", BR_SMOOTH_ERRORS, linear},
     {"ratio sqrt 2", BR_SMOOTH_ERRORS, root2},
     {"ratio 1.1", BR_SMOOTH_ERRORS, ratio11},
     {"round-off", BR_SMOOTH_ERRORS, roundoff},

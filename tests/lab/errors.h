@@ -37,7 +37,7 @@ struct br_error_class {
     void (*draw)(struct br_random *random, struct br_error_line *line);
 };
 extern const struct br_error_class br_error_classes[];
-extern const struct br_error_class br_limit_classes[];  /* of values, for their limits */
-extern const struct br_error_class br_unseen_classes[]; /* chosen after the laws (unseen.c) */
+extern const struct br_error_class br_limit_classes[];    /* of values, for their limits */
+extern const struct br_error_class br_held_out_classes[]; /* chosen after the laws (held_out.c) */
 
 #endif

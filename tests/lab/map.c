@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "tests/lab/map.h"
 #include "base/each.h"
+#include "tests/lab/map.h"
 #include "tests/support.h"
 
 enum { SEEDS = 10, SAMPLE = 6, MANY = 100 };
@@ -18,12 +18,12 @@ struct map {
     struct br_extreme_verdict *verdict;
 };
 
-static enum br_status judge(void *self, size_t i, struct br_error *err)
+static enum br_status find_verdict(void *self, size_t i, struct br_error *err)
 {
     const struct map *m = self;
     struct br_extreme_case one;
     br_extreme_draw(m->seed, i, &one);
-    return br_extreme_judge(&one, &(struct br_extreme_judging){0}, &m->verdict[i], err);
+    return br_extreme_check(&one, &(struct br_extreme_options){0}, &m->verdict[i], err);
 }
 
 /* Prints the tally and an upper bound of the rate of what is silently wrong: 95 %, of Clopper and
@@ -31,7 +31,7 @@ static enum br_status judge(void *self, size_t i, struct br_error *err)
 static void print_tally(size_t cases, const size_t count[BR_EXTREME_CLASSES])
 {
     const size_t wrong = count[BR_EXTREME_WRONG];
-    const size_t right = cases - wrong - count[BR_EXTREME_REFUSED] - count[BR_EXTREME_UNJUDGED];
+    const size_t right = cases - wrong - count[BR_EXTREME_REFUSED] - count[BR_EXTREME_UNCHECKED];
     for (size_t i = 0; i < BR_EXTREME_CLASSES; i++)
         printf("%s%s %zu", i ? ", " : "", br_extreme_words[i], count[i]);
     printf("; a rate of at most %.3g\n",
@@ -44,7 +44,8 @@ static size_t try_seed(uint64_t seed, size_t cases, bool all)
     struct br_error err = {0};
     struct map m = {seed, br_allocate(cases, sizeof *m.verdict)};
     size_t count[BR_EXTREME_CLASSES] = {0};
-    if (!m.verdict || br_each(&(struct br_each){.count = cases, .turn = judge, .self = &m}, &err)) {
+    if (!m.verdict ||
+        br_each(&(struct br_each){.count = cases, .turn = find_verdict, .self = &m}, &err)) {
         printf("Bail out! %s\n", err.message);
         exit(99);
     }

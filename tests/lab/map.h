@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The map of extremes: scenes, methods and resolutions that are drawn from a seed to break the
- * program, and who judges them. map.c counts, test_map.c replays cases that were wrong once. */
+ * program, and what checks them. map.c counts, test_map.c replays cases that were wrong once. */
 #ifndef BR_TESTS_LAB_MAP_H
 #define BR_TESTS_LAB_MAP_H
 
@@ -76,7 +76,7 @@ void br_extreme_scene(const struct br_extreme_case *one, char text[BR_EXTREME_TE
 void br_extreme_command(const struct br_extreme_case *one, const char *name,
                         char text[BR_EXTREME_COMMAND]);
 
-/* ---- who judges ---- */
+/* ---- what checks ---- */
 
 /* Tests for one case that a march is right, or that the program says that it is not.
  *
@@ -95,7 +95,7 @@ enum br_extreme_class {
     BR_EXTREME_UNKNOWN,  /* inaccurate, and says that its error is not known */
     BR_EXTREME_UNSTABLE, /* as predicted */
     BR_EXTREME_REFUSED,
-    BR_EXTREME_UNJUDGED, /* given up by the map */
+    BR_EXTREME_UNCHECKED, /* given up by the map */
     BR_EXTREME_WRONG,
     BR_EXTREME_CLASSES
 };
@@ -103,37 +103,38 @@ extern const char *const br_extreme_words[BR_EXTREME_CLASSES];
 
 /* What the error is measured by. */
 enum br_extreme_by { BR_BY_NOBODY, BR_BY_EXACT, BR_BY_REFINEMENT };
-extern const char *const br_extreme_judges[];
+extern const char *const br_extreme_sources[];
 
 struct br_extreme_verdict {
     enum br_extreme_class which;
     enum br_extreme_by by;
-    bool known;      /* the run states its error */
-    double error;    /* of displacements, over the largest; NaN: not known */
-    double nearest;  /* the error of the field that is nearest to its stated bound or furthest beyond
-                        it; NaN: not compared */
-    double stated;   /* the stated bound of that field's error; INFINITY: no bound; NaN: not compared */
+    bool known;     /* the run states its error */
+    double error;   /* of displacements, over the largest; NaN: not known */
+    double nearest; /* the error of the field that is nearest to its stated bound or furthest beyond
+                       it; NaN: not compared */
+    double stated;  /* that bound; INFINITY: no bound; NaN: not compared */
     unsigned warned; /* bits: 1 << br_warning_kind */
     char why[200];   /* the reason why it is not right; one line */
 };
 
-/* An error over the stated one, where it is larger than that and the slack of the judge; else 0. */
+/* An error over the stated one, where it is larger than that and the slack of the reference; else
+ * 0. */
 double br_extreme_beyond(double error, double slack, double stated);
 
 /* The class of an answer by the members by, known, error and warned, and by how far an error is
  * beyond the stated one. */
 enum br_extreme_class br_extreme_class_of(const struct br_extreme_verdict *verdict, double beyond);
 
-/* How judging is done; zeros: as the map does. */
-struct br_extreme_judging {
+/* How a case is checked; zeros: as the map does. */
+struct br_extreme_options {
     bool quick;            /* without the exact solution */
     double stated_divisor; /* divides the stated errors, so that tests see what is called wrong; 0:
                               as stated */
 };
 
-/* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */
-enum br_status br_extreme_judge(const struct br_extreme_case *one,
-                                const struct br_extreme_judging *judging,
+/* Checks a case; *verdict (out). Fails with BR_NO_MEMORY. */
+enum br_status br_extreme_check(const struct br_extreme_case *one,
+                                const struct br_extreme_options *options,
                                 struct br_extreme_verdict *verdict, struct br_error *err);
 
 #endif

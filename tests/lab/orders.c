@@ -68,10 +68,10 @@ static void observe(const struct br_error_line *line, struct br_point *point, st
 }
 
 /* Its verdict with this order expected. */
-static enum br_verdict judge(struct br_case *c, double expected)
+static enum br_verdict find_verdict(struct br_case *c, double expected)
 {
     c->expected.order = expected;
-    br_case_judge(c);
+    br_case_decide(c);
     return c->verdict;
 }
 
@@ -124,10 +124,10 @@ static void try_line_of(const struct br_error_line *drawn, size_t index, struct 
     struct br_case c;
     const double expected = isnan(line.truth) ? 2 : line.truth;
     observe(&line, point, &c);
-    bool wrong = judge(&c, index % 2 == 0 ? expected + 0.5 : expected - 0.4) == BR_PASS;
-    wrong = isnan(line.other) ? wrong : judge(&c, line.other) == BR_PASS;
+    bool wrong = find_verdict(&c, index % 2 == 0 ? expected + 0.5 : expected - 0.4) == BR_PASS;
+    wrong = isnan(line.other) ? wrong : find_verdict(&c, line.other) == BR_PASS;
     t->wrong_pass += wrong;
-    judge(&c, expected);
+    find_verdict(&c, expected);
     count(t, &c, &c.order, (const double[]){line.truth, line.other}, c.note[0]);
     if (br_order_determined(&c.order) && !line.values)
         t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
@@ -139,14 +139,14 @@ static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
     try_line_of(&line, index, t);
 }
 
-static struct br_error_line unseen_line_of(size_t class, uint64_t seed, size_t index)
+static struct br_error_line held_out_line_of(size_t class, uint64_t seed, size_t index)
 {
-    return line_of(&br_unseen_classes[class], seed * 1000 + 300 + class, index);
+    return line_of(&br_held_out_classes[class], seed * 1000 + 300 + class, index);
 }
 
-static void try_unseen(size_t class, uint64_t seed, size_t index, struct tally *t)
+static void try_held_out(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
-    const struct br_error_line line = unseen_line_of(class, seed, index);
+    const struct br_error_line line = held_out_line_of(class, seed, index);
     try_line_of(&line, index, t);
 }
 
@@ -292,9 +292,9 @@ static void try_line_limit(size_t class, uint64_t seed, size_t index, struct tal
 }
 
 /* The same of a class that nobody had seen. */
-static void try_unseen_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
+static void try_held_out_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
-    const struct br_error_line line = unseen_line_of(class, seed, index);
+    const struct br_error_line line = held_out_line_of(class, seed, index);
     const struct br_estimate limit = stated(&line);
     count_limit(t, limit.low, limit.high, line.limit, line.e[line.rows - 1]);
 }
@@ -352,12 +352,12 @@ static const char *const group_names[BR_GROUPS] = {"smooth",   "noisy",      "ha
                                                    "no order", "two orders", "growth"};
 
 /* A run of the program. */
-struct run {
+struct lab_run {
     uint64_t seed;
     const char *only;   /* the class; NULL: all */
     double *width;      /* of the lines of a class */
     size_t number, bad; /* tests so far, and those that failed */
-    bool unseen; /* classes that are kept for the measure alone: only a wrong PASS is too much */
+    bool held_out; /* classes that are kept for the measure alone: only a wrong PASS is too much */
     struct tally group[BR_GROUPS]; /* all lines of a part of the program */
     double seconds;
 };
@@ -377,8 +377,8 @@ static void add(struct tally *sum, const struct tally *t)
 }
 
 /* Tries so many lines, or grids, of a class. */
-static void try_class(struct run *run, const char *name, enum br_error_group group, size_t class,
-                      try_one *try, size_t lines)
+static void try_class(struct lab_run *run, const char *name, enum br_error_group group,
+                      size_t class, try_one *try, size_t lines)
 {
     struct tally t = {.width = run->width};
     run->number++;
@@ -388,8 +388,8 @@ static void try_class(struct run *run, const char *name, enum br_error_group gro
     for (size_t i = 0; i < lines; i++)
         try(class, run->seed, i, &t);
     run->seconds += (double)(clock() - start) / CLOCKS_PER_SEC;
-    const bool good = run->unseen ? t.contradicts == 0 && at_most(t.wrong_pass, 0.002, t.lines)
-                                  : is_good(group, &t);
+    const bool good = run->held_out ? t.contradicts == 0 && at_most(t.wrong_pass, 0.002, t.lines)
+                                    : is_good(group, &t);
     run->bad += !good;
     printf("# ");
     print(name, &t);
@@ -398,7 +398,7 @@ static void try_class(struct run *run, const char *name, enum br_error_group gro
 }
 
 /* Begins a part of the program. */
-static void begin(struct run *run, size_t lines, const char *of)
+static void begin(struct lab_run *run, size_t lines, const char *of)
 {
     printf("# %zu %s a class\n", lines, of);
     memset(run->group, 0, sizeof run->group);
@@ -406,7 +406,7 @@ static void begin(struct run *run, size_t lines, const char *of)
 }
 
 /* The sums of a part, and how long one line of it took. */
-static void end(struct run *run)
+static void end(struct lab_run *run)
 {
     size_t lines = 0;
     for (size_t i = 0; i < BR_GROUPS && !run->only; i++)
@@ -420,7 +420,7 @@ static void end(struct run *run)
 }
 
 /* Classes of lines, up to the one without a name. */
-static void try_classes(struct run *run, const struct br_error_class *class, try_one *try,
+static void try_classes(struct lab_run *run, const struct br_error_class *class, try_one *try,
                         size_t lines, const char *of)
 {
     begin(run, lines, of);
@@ -430,7 +430,7 @@ static void try_classes(struct run *run, const struct br_error_class *class, try
 }
 
 /* All published columns. At most one order is worse than docs/observed-orders.md says. */
-static void try_all_published(struct run *run)
+static void try_all_published(struct lab_run *run)
 {
     size_t all[4] = {0}, later[4] = {0}, last[4] = {0};
     for (size_t i = 0; i < BR_PUBLISHED; i++) {
@@ -538,7 +538,7 @@ int main(int arguments, char **argument)
                          : br_test_long() ? MANY
                                           : SAMPLE;
     const size_t grids = (lines + 3) / 4; /* of two orders and some ten lines each */
-    struct run run = {
+    struct lab_run run = {
         .seed = arguments >= 3 ? strtoull(argument[1], NULL, 10) : 1,
         .only = arguments == 4 ? argument[3] : NULL,
         .width = br_allocate(lines + 1, sizeof *run.width),
@@ -568,12 +568,13 @@ int main(int arguments, char **argument)
         try_class(&run, br_value_classes[i].name, BR_NOISY_ERRORS, i, try_limit, grids);
     end(&run);
     try_classes(&run, br_limit_classes, try_line_limit, lines, "limits of lines");
-    run.unseen = true;
-    try_classes(&run, br_unseen_classes, try_unseen, lines, "lines nobody had seen");
-    begin(&run, lines, "limits nobody had seen");
-    for (size_t i = 0; br_unseen_classes[i].name; i++)
-        if (line_of(&br_unseen_classes[i], 1, 0).values)
-            try_class(&run, br_unseen_classes[i].name, BR_NOISY_ERRORS, i, try_unseen_limit, lines);
+    run.held_out = true;
+    try_classes(&run, br_held_out_classes, try_held_out, lines, "held-out lines");
+    begin(&run, lines, "limits of held-out lines");
+    for (size_t i = 0; br_held_out_classes[i].name; i++)
+        if (line_of(&br_held_out_classes[i], 1, 0).values)
+            try_class(&run, br_held_out_classes[i].name, BR_NOISY_ERRORS, i, try_held_out_limit,
+                      lines);
     end(&run);
     if (!run.only || strcmp(run.only, "published") == 0)
         try_all_published(&run);

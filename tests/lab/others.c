@@ -55,7 +55,7 @@ static double solve(struct fit *f, double p)
     return f->squares = squares;
 }
 
-/* The best p from 0.05 to 10: the best of a ladder, then by golden section. */
+/* The best p from 0.05 to 10: the best of a list, then by golden section. */
 static void find(struct fit *f)
 {
     static const double golden = 0.6180339887498949;

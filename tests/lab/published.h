@@ -72,7 +72,7 @@
 #include "tests/lab/errors.h"
 
 /* The sizes of the rows. */
-enum br_published_ladder {
+enum br_published_sizes {
     HALVED,   /* each half of the one before */
     SQUARES,  /* 4 x 4, 6 x 6, 8 x 8, 12 x 12, ... cells */
     CUBES,    /* 2, 3, 4, 6, 8, 12, ... along an edge */
@@ -82,7 +82,7 @@ enum br_published_ladder {
 
 static const struct br_published {
     double order;
-    enum br_published_ladder ladder;
+    enum br_published_sizes mesh_sequence;
     const char *name, *errors, *sizes;
 } br_published[] = {
     {2, UNKNOWNS, "deal.II step-7, Q1, adaptive: L2",
@@ -501,11 +501,11 @@ static inline struct br_error_line br_published_line(const struct br_published *
         char *next;
         const double size = sizes ? strtod(sizes, &next) : 0;
         sizes = sizes ? next : NULL;
-        line.h[i] = p->ladder == HALVED     ? pow(0.5, (double)i)
-                    : p->ladder == SQUARES  ? 1 / edge[i + 2]
-                    : p->ladder == CUBES    ? 1 / edge[i]
-                    : p->ladder == UNKNOWNS ? 1 / sqrt(size)
-                                            : size;
+        line.h[i] = p->mesh_sequence == HALVED     ? pow(0.5, (double)i)
+                    : p->mesh_sequence == SQUARES  ? 1 / edge[i + 2]
+                    : p->mesh_sequence == CUBES    ? 1 / edge[i]
+                    : p->mesh_sequence == UNKNOWNS ? 1 / sqrt(size)
+                                                   : size;
     }
     return line;
 }

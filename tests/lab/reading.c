@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is a stranger's table read as a person reads it? Cases of tests/data/reading, or of other files,
  * with what a person reads, typed before the program was tried. The oracle has its own reading of
- * numbers, and of tables that are simple; it shares nothing with the one that it judges. A case:
+ * numbers, and of tables that are simple; it shares nothing with the one that it checks. A case:
  *
  *     @@ KIND/NAME | OPTIONS | EXPECTATION
  *     @# source, or a remark
@@ -406,9 +406,9 @@ static bool names_left(const struct br_numbers *n, const char *text)
     return false;
 }
 
-static struct outcome judge(const struct br_numbers *n, enum br_status status,
-                            const struct br_error *err, const struct expected *e,
-                            struct change change)
+static struct outcome find_outcome(const struct br_numbers *n, enum br_status status,
+                                   const struct br_error *err, const struct expected *e,
+                                   struct change change)
 {
     struct outcome o = {.verdict = RIGHT};
     if (status) {
@@ -450,7 +450,7 @@ static struct outcome read_table(const char *table, const struct table_case *c,
         status = br_orders_read(&r, &n, &err);
     else
         status = br_fail(&err, BR_BAD_INPUT, "no such option: %s", c->options);
-    const struct outcome o = judge(&n, status, &err, &c->expected, change);
+    const struct outcome o = find_outcome(&n, status, &err, &c->expected, change);
     br_numbers_clear(&n);
     br_orders_request_clear(&r);
     return o;

@@ -34,7 +34,7 @@ static void join(char *text)
 }
 
 /* What is refused is refused with the same words; what was marched is marched, and states its error
- * or says that it is not known, as it was judged. */
+ * or says that it is not known, as it was found. */
 static void repeat(const struct br_extreme_case *one, const struct br_extreme_verdict *verdict)
 {
     static struct cli_outcome out;
@@ -53,31 +53,31 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
         same = same && strstr(out.output, verdict->known ? "Estimated error: "
                                                          : "The discretisation error is not known");
     if (!same)
-        fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
+        fail_msg("case %zu was found %s (%s)\n%s\nexit code %d\n%s", one->index,
                  br_extreme_words[verdict->which], verdict->why, command, out.exit_code,
                  out.output);
 }
 
 TEST(test_commands)
 {
-    const struct br_extreme_judging judging = {.quick = true};
-    size_t seen[BR_EXTREME_CLASSES] = {0};
+    const struct br_extreme_options options = {.quick = true};
+    size_t found[BR_EXTREME_CLASSES] = {0};
     const size_t cases = br_test_long() ? 10 * CASES : CASES;
     for (size_t i = 0; i < cases; i++) {
         struct br_extreme_case one;
         struct br_extreme_verdict verdict;
         struct br_error err = {0};
         br_extreme_draw(2, i, &one);
-        assert_int_equal(br_extreme_judge(&one, &judging, &verdict, &err), BR_OK);
+        assert_int_equal(br_extreme_check(&one, &options, &verdict, &err), BR_OK);
         /* What the map's limit ends goes on for a user. */
-        if (verdict.which == BR_EXTREME_UNJUDGED ||
-            (!br_test_long() && seen[verdict.which] == FIRST_OF_EACH))
+        if (verdict.which == BR_EXTREME_UNCHECKED ||
+            (!br_test_long() && found[verdict.which] == FIRST_OF_EACH))
             continue;
-        seen[verdict.which]++;
+        found[verdict.which]++;
         repeat(&one, &verdict);
     }
-    assert_true(seen[BR_EXTREME_RIGHT] && seen[BR_EXTREME_WARNED] && seen[BR_EXTREME_REFUSED] &&
-                seen[BR_EXTREME_UNSTABLE] && seen[BR_EXTREME_UNKNOWN]);
+    assert_true(found[BR_EXTREME_RIGHT] && found[BR_EXTREME_WARNED] && found[BR_EXTREME_REFUSED] &&
+                found[BR_EXTREME_UNSTABLE] && found[BR_EXTREME_UNKNOWN]);
 }
 
 AROUND_TESTS(cli_make_folder, cli_remove_folder)

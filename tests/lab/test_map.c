@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
-#include "study/foresee/warnings.h"
+#include "study/estimate/warnings.h"
 #include "tests/lab/map.h"
 #include "tests/lab/track.h"
 #include "tests/support.h"
@@ -41,13 +41,14 @@ struct named {
     size_t index;
 };
 
-static struct br_extreme_verdict judge(struct named which, const struct br_extreme_judging *judging)
+static struct br_extreme_verdict find_verdict(struct named which,
+                                              const struct br_extreme_options *options)
 {
     struct br_extreme_case one;
     struct br_extreme_verdict verdict;
     struct br_error err = {0};
     br_extreme_draw(which.seed, which.index, &one);
-    assert_int_equal(br_extreme_judge(&one, judging, &verdict, &err), BR_OK);
+    assert_int_equal(br_extreme_check(&one, options, &verdict, &err), BR_OK);
     return verdict;
 }
 
@@ -55,7 +56,7 @@ static void check_sound(const struct named *sound, size_t count, bool quick)
 {
     for (size_t i = 0; i < count; i++) {
         const struct br_extreme_verdict verdict =
-            judge(sound[i], &(struct br_extreme_judging){.quick = quick});
+            find_verdict(sound[i], &(struct br_extreme_options){.quick = quick});
         if (verdict.which == BR_EXTREME_WRONG)
             fail_msg("case %zu of seed %zu: %s", sound[i].index, (size_t)sound[i].seed,
                      verdict.why);
@@ -67,7 +68,7 @@ static void check_sound(const struct named *sound, size_t count, bool quick)
  * an earlier one was rounded to (240, 503, 681), by the bound of a contact that is a million times
  * stiffer than the rod (690, 1136), by what elimination leaves (502, 852), by a scheme that began
  * anew where a contact without stiffness opened (102). Seed 7: by a
- * judge whose iterations add up (91). Seed 4: by a residual
+ * reference whose iterations add up (91). Seed 4: by a residual
  * where load and velocity cross zero at once (94), by steps that add many velocities (1851). By a
  * friction force that obeys the march's bound, which is that of the nodes to round-off (3, 512; 5,
  * 241; 10, 151); by what a light beam's velocities are rounded to (8, 811). By a
@@ -87,10 +88,10 @@ TEST(test_sound_cases)
  * without contact stiffness, which the exact solution missed, too (3, 101; 1, 212), where two
  * tolerances choose the same steps (2, 284; 4, 71), where chosen steps have few levels (4, 145);
  * where a contact throws a pressed tip back within a step (7, 430), a layer lies between the
- * judge's places (7, 813), and a beam follows its load at once (6, 459); where a velocity dies
+ * reference's places (7, 813), and a beam follows its load at once (6, 459); where a velocity dies
  * away within a step of every march (20261123, 613), and a light beam swings as fast as it is
  * marched (73, 534); where equal steps of R miss what a tolerance sees (20261215, 36), and those of
- * the judge do (20270207, 33). Those that take long are for long tests.
+ * the reference do (20270207, 33). Those that take long are for long tests.
  */
 TEST(test_hard_cases)
 {
@@ -105,24 +106,24 @@ TEST(test_hard_cases)
  * it does not know is not. */
 TEST(test_boast)
 {
-    const struct br_extreme_judging honest = {.quick = true},
+    const struct br_extreme_options honest = {.quick = true},
                                     boast = {.quick = true, .stated_divisor = 1e4};
     int known = 0, wrong = 0;
     for (size_t i = 1; i < 16 && (known < 4 || br_test_long()); i++) {
         const struct named one = {1, i};
-        const struct br_extreme_verdict truth = judge(one, &honest);
+        const struct br_extreme_verdict truth = find_verdict(one, &honest);
         assert_true(truth.which != BR_EXTREME_WRONG);
         if (truth.which == BR_EXTREME_RIGHT && truth.known && truth.error > truth.stated / 1e3) {
             known++;
-            wrong += judge(one, &boast).which == BR_EXTREME_WRONG;
+            wrong += find_verdict(one, &boast).which == BR_EXTREME_WRONG;
         } else if (!truth.known)
-            assert_int_equal(judge(one, &boast).which, truth.which);
+            assert_int_equal(find_verdict(one, &boast).which, truth.which);
     }
     assert_true(known >= 3);
     AT_MOST(0.5 * known, wrong);
 }
 
-/* Classes by hand: who states less than is true is wrong, whoever judges; 5 % where nothing is
+/* Classes by hand: who states less than is true is wrong, whoever checks; 5 % where nothing is
  * stated. */
 TEST(test_classes_by_hand)
 {
@@ -135,8 +136,8 @@ TEST(test_classes_by_hand)
         unsigned warned;
         enum br_extreme_class which;
     } rows[] = {
-        {BR_BY_NOBODY, true, 0, 0, 1, 0, BR_EXTREME_UNJUDGED},
-        {BR_BY_NOBODY, true, NAN, NAN, NAN, TIME, BR_EXTREME_UNJUDGED},
+        {BR_BY_NOBODY, true, 0, 0, 1, 0, BR_EXTREME_UNCHECKED},
+        {BR_BY_NOBODY, true, NAN, NAN, NAN, TIME, BR_EXTREME_UNCHECKED},
         {BR_BY_EXACT, true, 0, 0, 0, 0, BR_EXTREME_RIGHT},
         {BR_BY_EXACT, true, 0.01, 0, 0.01, 0, BR_EXTREME_RIGHT},
         {BR_BY_EXACT, true, 0.05, 0, 0.05, 0, BR_EXTREME_RIGHT},
@@ -200,7 +201,7 @@ static struct br_track *made_track(double rest, double tip)
     struct br_track *t = br_allocate(1, sizeof *t);
     assert_non_null(t);
     t->samples = br_track_samples(3, 10);
-    t->seen = t->samples.levels;
+    t->sampled = t->samples.levels;
     t->largest[BR_AXIAL] = fmax(fabs(rest), fabs(tip));
     for (size_t i = 0; i < t->samples.levels; i++)
         for (size_t p = 0; p < t->samples.points; p++)

@@ -48,7 +48,7 @@ struct recorder {
 /* slope: L w_x/4, m. */
 static void keep_slope(struct br_track *t, size_t point, double slope)
 {
-    t->value[BR_TRACK_SLOPE][t->seen][point] = slope;
+    t->value[BR_TRACK_SLOPE][t->sampled][point] = slope;
     t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
 }
 
@@ -67,7 +67,7 @@ static void record_field(struct recorder *l, const struct br_march *march, enum 
         const size_t element = (part - 1) / parts; /* that contains the point or ends at it */
         const double xi = (double)(part - element * parts) / (double)parts;
         double slope;
-        t->value[kind][t->seen][p] =
+        t->value[kind][t->sampled][p] =
             br_nodal_value(kind, unknowns, l->nodal + element * unknowns, xi, &slope);
         if (kind == BR_BENDING)
             keep_slope(t, p, slope * (double)f->n / 4);
@@ -87,7 +87,7 @@ static enum br_status record(void *self, const struct br_march *march,
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (br_march_models(march, kind))
             record_field(l, march, kind);
-    l->track->seen++;
+    l->track->sampled++;
     return BR_OK;
 }
 
@@ -162,7 +162,7 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
                                  const struct br_exact_state *state)
 {
     struct br_exact_quantity part = {kind, false, 0};
-    double *value = t->value[kind][t->seen], slope[BR_TRACK_POINTS];
+    double *value = t->value[kind][t->sampled], slope[BR_TRACK_POINTS];
     enum br_status status = evaluate(exact, t, &part, length, state, value);
     for (size_t p = 0; p < t->samples.points && !status; p++)
         t->largest[kind] = fmax(t->largest[kind], fabs(value[p]));
@@ -182,9 +182,10 @@ static void record_exact(const struct br_exact *exact, const struct br_scene *sc
 {
     struct br_exact_state *state = NULL;
     enum br_status status = br_exact_state_create(&state, exact, &t->failure);
-    for (; t->seen < t->samples.levels && !status; t->seen++) {
+    for (; t->sampled < t->samples.levels && !status; t->sampled++) {
         br_exact_at(exact,
-                    scene->duration * (double)t->samples.level[t->seen] / (double)t->samples.steps,
+                    scene->duration * (double)t->samples.level[t->sampled] /
+                        (double)t->samples.steps,
                     state);
         for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
             if (scene->field[kind].modelled)
@@ -238,7 +239,7 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
                          enum br_field_kind kind)
 {
     const double *size = reference->largest;
-    if (track->seen < track->samples.levels || reference->seen < track->samples.levels)
+    if (track->sampled < track->samples.levels || reference->sampled < track->samples.levels)
         return NAN;
     const double most = largest(track, reference, kind);
     return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
@@ -276,15 +277,15 @@ static double largest_mean(const struct br_track *a, const struct br_track *b,
 /* The mean at all times: scaled by the largest value of all times over the largest sampled one. */
 static double mean_size(const struct br_track *t, enum br_field_kind kind)
 {
-    const double mean = largest_mean(t, NULL, kind), seen = largest(t, NULL, kind);
-    return seen > 0 ? mean * fmax(1, t->largest[kind] / seen) : 0;
+    const double mean = largest_mean(t, NULL, kind), sampled = largest(t, NULL, kind);
+    return sampled > 0 ? mean * fmax(1, t->largest[kind] / sampled) : 0;
 }
 
 double br_track_error(const struct br_track *track, const struct br_track *reference,
                       enum br_field_kind kind, double *sure_to)
 {
     *sure_to = 0;
-    if (track->seen < track->samples.levels || reference->seen < track->samples.levels)
+    if (track->sampled < track->samples.levels || reference->sampled < track->samples.levels)
         return NAN;
     const double own = mean_size(reference, kind);
     const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));

@@ -29,7 +29,7 @@ struct br_track {
     /* Displacements by br_field_kind, and L w_x/4, which is about the bulge of a beam with a fixed
      * tip; m. */
     double value[BR_TRACK_VALUES][BR_TRACK_LEVELS + 1][BR_TRACK_POINTS];
-    size_t seen;                 /* sampled levels */
+    size_t sampled;              /* sampled levels */
     bool finite;                 /* all nodal values there */
     double largest[2];           /* of all nodal displacements there, m */
     double own_error[2];         /* error that an exact solution states of itself, m */

@@ -4,7 +4,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "solver/linear/riccati/pieces.h"
+#include "solver/linear/riccati/panels.h"
 
 /* ---- kernels ---- */
 
@@ -32,33 +32,34 @@ const struct br_kernel *br_kernel_find(const char *name)
 /* ---- the cut ---- */
 
 enum {
-    MOST_LENGTH = 32, /* elements of a piece: two of them fit the first level of the cache */
-    JOIN_COST = 2,    /* of a piece in its span, in element loops */
-    SPAN_COST = 16,   /* of all spans */
+    MOST_LENGTH = 32,  /* elements of a panel: two of them fit the first level of the cache */
+    JOIN_COST = 2,     /* of a panel in its segment, in element loops */
+    SEGMENT_COST = 16, /* of all segments */
 };
 
 /* Element loops of a step. An element of the odd rest costs as much as an element loop of all
- * spans. */
+ * segments. */
 static double cost_of(const struct br_cut *cut)
 {
-    return (double)(cut->pieces * (cut->length + JOIN_COST) + cut->odd) +
-           (cut->pieces ? SPAN_COST : 0);
+    return (double)(cut->panels * (cut->length + JOIN_COST) + cut->odd) +
+           (cut->panels ? SEGMENT_COST : 0);
 }
 
 struct br_cut br_choose_cut(size_t n)
 {
     struct br_cut best = {.odd = n};
     for (size_t length = 1; length <= MOST_LENGTH && length * BR_LANES <= n; length++) {
-        struct br_cut cut = {.pieces = n / (length * BR_LANES), .length = length};
-        cut.odd = n - cut.pieces * length * BR_LANES;
+        struct br_cut cut = {.panels = n / (length * BR_LANES), .length = length};
+        cut.odd = n - cut.panels * length * BR_LANES;
         if (cost_of(&cut) < cost_of(&best))
             best = cut;
     }
     return best;
 }
 
-/* ns, of an AMD EPYC with AVX-512 at about 3 GHz: of a step, of an element of all spans, of the odd
- * rest and of its elements; and, as another struct, what a pass over the states adds to each. */
+/* ns, of an AMD EPYC with AVX-512 at about 3 GHz: of a step, of an element of all segments, of the
+ * odd rest and of its elements; and, as another struct, what a pass over the states adds to each.
+ */
 struct cost {
     double step, loop, rest, odd;
 };
@@ -66,13 +67,13 @@ struct cost {
 /* A beam that is only an odd rest has no joins. */
 static double price(const struct cost *of, const struct br_cut *cut)
 {
-    const double joins = cut->pieces ? of->step : 0, rest = cut->odd ? of->rest : 0;
-    return joins + of->loop * (double)(cut->pieces * cut->length) + rest +
+    const double joins = cut->panels ? of->step : 0, rest = cut->odd ? of->rest : 0;
+    return joins + of->loop * (double)(cut->panels * cut->length) + rest +
            of->odd * (double)cut->odd;
 }
 
 /* See linear_solver.h. */
-static double pieces_cost(const struct br_linear_solver *row, const struct br_field *field,
+static double panels_cost(const struct br_linear_solver *row, const struct br_field *field,
                           double sums)
 {
     (void)row;
@@ -83,7 +84,7 @@ static double pieces_cost(const struct br_linear_solver *row, const struct br_fi
     static const double march = 140; /* of a step that has an odd rest alone */
     const struct br_cut cut = br_choose_cut(field->n);
     const bool rod = field->kind == BR_AXIAL;
-    return (cut.pieces ? 0 : march) + price(rod ? &axial : &bending, &cut) +
+    return (cut.panels ? 0 : march) + price(rod ? &axial : &bending, &cut) +
            sums * price(rod ? &axial_sum : &bending_sum, &cut);
 }
 
@@ -100,8 +101,8 @@ static double most_excess(const struct br_field *f)
 
 /* In the lowest mode of free vibration the strain g is larger than the increment that it leads to,
  * by the factor br_field_inertia. The joins add the round-off of their sums: where inertia
- * dominates, pieces that are free at one end respond by far more than the joined beam. Short beams
- * are one piece. */
+ * dominates, panels that are free at one end respond by far more than the joined beam. Short beams
+ * are one panel. */
 static double riccati_round_off(const struct br_field *field)
 {
     const double joined = field->n <= 20 ? 0 : field->kind == BR_AXIAL ? 0.25 : 4;
@@ -111,15 +112,16 @@ static double riccati_round_off(const struct br_field *field)
 
 const struct br_linear_solver br_riccati = {
     .name = "riccati",
-    .title = "flexibility form: Riccati recursions on pieces of the beam, side by side in vectors",
+    .title =
+        "flexibility form: Riccati recursions on segments of the beam, side by side in vectors",
     .citation =
-        "discrete linear-quadratic problem in substructures, see solver/linear/riccati/pieces.h",
+        "discrete linear-quadratic problem in substructures, see solver/linear/riccati/panels.h",
     .takes_kernel = true,
-    .axial = &br_pieces,
+    .axial = &br_panels,
     .axial_quadratic = &br_plain_form,
-    .bending = &br_pieces,
+    .bending = &br_panels,
     .round_off = riccati_round_off,
     .bytes = {40, 62, 141},
     .state_bytes = {28, 44, 32},
-    .cost = pieces_cost,
+    .cost = panels_cost,
 };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loops of a strip: a step of its pieces, their joins, and the way to the nodes. Compiled once
- * for each instruction set, BR_SET (instruction_set.h), and each number of unknowns a node, BR_D,
- * and contracted. Two vectors side by side hide the latency of the recursions. */
+/* The loops of a group of segments: a step of its panels, their joins, and the way to the nodes.
+ * Compiled once for each instruction set, BR_SET (instruction_set.h), and each number of unknowns a
+ * node, BR_D, and contracted. Two vectors side by side hide the latency of the recursions. */
 #include "solver/linear/riccati/kernel.h"
 #include "solver/vectors.h"
 
-/* ---- the lanes of a strip in vectors ---- */
+/* ---- the lanes of a group of segments in vectors ---- */
 
 enum { d = BR_D, VECTORS = 2, GO = VECTORS * WIDTH };
 
@@ -50,23 +50,23 @@ INLINE void pass_on(const vec *kappa, vec *y)
     y[1] += kappa[0];
 }
 
-/* The arrays of a piece, from one lane on. */
-struct piece {
+/* The arrays of a panel, from one lane on. */
+struct panel {
     double *state, *end;
     const double *load;
 };
 
-INLINE struct piece piece_at(const struct br_strip *s, size_t j, size_t lane)
+INLINE struct panel panel_at(const struct br_segments *s, size_t j, size_t lane)
 {
     const size_t entry = (size_t)d * BR_LANES;
-    return (struct piece){
+    return (struct panel){
         .state = s->state + j * s->length * 2 * entry + lane,
         .end = s->end + j * BR_ENDS * entry + lane,
         .load = s->load ? s->load + j * s->length * entry + lane : NULL,
     };
 }
 
-INLINE const double *join_of(const struct br_strip *s, size_t j)
+INLINE const double *join_of(const struct br_segments *s, size_t j)
 {
     return s->join + j * (size_t)(BR_JOINS * d * d);
 }
@@ -114,11 +114,11 @@ INLINE void strain(double alpha, const vec *w, const vec *v, vec *g)
         g[i] = alpha * w[i] + v[i];
 }
 
-/* ---- a piece ---- */
+/* ---- a panel ---- */
 
 /* Computes costates p to the left, and s into the scratch; minus_f: minus a uniform load. */
-INLINE void piece_left(int vectors, bool loaded, const struct br_strip *s, const struct piece *at,
-                       const vec *minus_f, double factor, vec p[VECTORS][2])
+INLINE void panel_left(int vectors, bool loaded, const struct br_segments *s,
+                       const struct panel *at, const vec *minus_f, double factor, vec p[VECTORS][2])
 {
     const size_t entry = (size_t)d * BR_LANES;
     for (size_t e = s->length; e-- > 0;)
@@ -141,14 +141,14 @@ INLINE void piece_left(int vectors, bool loaded, const struct br_strip *s, const
         }
 }
 
-/* Values that are passed from piece to piece along a span, for one vector. */
+/* Values that are passed from panel to panel along a segment, for one vector. */
 struct along {
     vec y[2], velocity[2], displacement;
 };
 
 /* Computes the increments y to the right, the new state, and what it adds to z and q. Prefetches
- * the cache lines of the next piece. */
-INLINE void piece_right(int vectors, const struct br_strip *s, const struct piece *at,
+ * the cache lines of the next panel. */
+INLINE void panel_right(int vectors, const struct br_segments *s, const struct panel *at,
                         struct along *go)
 {
     const size_t entry = (size_t)d * BR_LANES;
@@ -188,9 +188,9 @@ INLINE void piece_right(int vectors, const struct br_strip *s, const struct piec
     }
 }
 
-/* ---- spans ---- */
+/* ---- segments ---- */
 
-/* The increment at a piece's right end, and the costate there. */
+/* The increment at a panel's right end, and the costate there. */
 INLINE void cross(const double *join, const double *end, const vec *right, vec *y, vec *costate)
 {
     const int entry = d * BR_LANES;
@@ -220,10 +220,10 @@ INLINE void start(size_t lane, const double *left, struct along *go)
     go->displacement = (vec){0};
 }
 
-INLINE void advance_by(int vectors, bool loaded, const struct br_strip *strip,
-                       const struct br_strip_drive *drive, const struct br_strip_ends *ends)
+INLINE void advance_by(int vectors, bool loaded, const struct br_segments *segments,
+                       const struct br_segment_drive *drive, const struct br_segment_ends *ends)
 {
-    const struct br_strip s = *strip; /* nothing aliases it */
+    const struct br_segments s = *segments; /* nothing aliases it */
     const double factor = drive->factor;
     vec minus_f[2];
     for (int i = 0; i < d; i++)
@@ -237,8 +237,8 @@ INLINE void advance_by(int vectors, bool loaded, const struct br_strip *strip,
             for (int i = 0; i < d; i++)
                 y[v][i] = go[v].y[i];
         }
-        for (size_t j = 0; j < s.pieces; j++) {
-            const struct piece at = piece_at(&s, j, lane);
+        for (size_t j = 0; j < s.panels; j++) {
+            const struct panel at = panel_at(&s, j, lane);
             vec p[VECTORS][2];
             for (int i = 0; i < BR_ENDS * d; i++)
                 __builtin_prefetch(at.end + (BR_ENDS * d + i) * BR_LANES);
@@ -247,8 +247,8 @@ INLINE void advance_by(int vectors, bool loaded, const struct br_strip *strip,
                     go[v].y[i] = y[v][i]; /* as the joins have it */
                 cross(join_of(&s, j), at.end + v * WIDTH, right[v], y[v], p[v]);
             }
-            piece_left(vectors, loaded, &s, &at, minus_f, factor, p);
-            piece_right(vectors, &s, &at, go);
+            panel_left(vectors, loaded, &s, &at, minus_f, factor, p);
+            panel_right(vectors, &s, &at, go);
         }
         for (int v = 0; v < vectors; v++) {
             store_all(go[v].velocity, ends->velocity + lane + v * WIDTH);
@@ -259,8 +259,8 @@ INLINE void advance_by(int vectors, bool loaded, const struct br_strip *strip,
 }
 
 /* The odd rest has one lane and needs no second vector. */
-static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
-                    const struct br_strip_ends *ends)
+static void advance(const struct br_segments *s, const struct br_segment_drive *drive,
+                    const struct br_segment_ends *ends)
 {
     if (s->lanes == 1 && s->load)
         advance_by(1, true, s, drive, ends);
@@ -274,7 +274,7 @@ static void advance(const struct br_strip *s, const struct br_strip_drive *drive
 
 /* z and q of a state that is not the result of a step: of a sum of states, or with count 0 of the
  * state itself. */
-INLINE void blend_piece(const struct br_strip *s, const struct piece *at, size_t count,
+INLINE void blend_panel(const struct br_segments *s, const struct panel *at, size_t count,
                         const double *const *from, const double *weight)
 {
     const size_t entry = (size_t)d * BR_LANES;
@@ -305,20 +305,20 @@ INLINE void blend_piece(const struct br_strip *s, const struct piece *at, size_t
     store_all(q, at->end + BR_END_Q * entry);
 }
 
-static void blend(const struct br_strip *strip, size_t count, const double *const *from,
+static void blend(const struct br_segments *segments, size_t count, const double *const *from,
                   const double *weight)
 {
-    const struct br_strip s = *strip; /* nothing aliases it */
-    for (size_t j = 0; j < s.pieces; j++)
+    const struct br_segments s = *segments; /* nothing aliases it */
+    for (size_t j = 0; j < s.panels; j++)
         for (size_t lane = 0; lane < s.lanes; lane += WIDTH) {
-            const struct piece at = piece_at(&s, j, lane);
-            blend_piece(&s, &at, count, from, weight);
+            const struct panel at = panel_at(&s, j, lane);
+            blend_panel(&s, &at, count, from, weight);
         }
 }
 
-static void square(const struct br_strip *s, const double *state, double total[2])
+static void square(const struct br_segments *s, const double *state, double total[2])
 {
-    const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
+    const size_t entry = (size_t)d * BR_LANES, length = s->panels * s->length;
     _Alignas(64) double sum[2][BR_LANES] = {{0}};
     for (size_t lane = 0; lane < s->lanes; lane += WIDTH) {
         vec of[2] = {{0}};
@@ -338,10 +338,10 @@ static void square(const struct br_strip *s, const double *state, double total[2
 }
 
 /* The recursions without a state, for a load of factor 1. */
-INLINE void charge_piece(const struct br_strip *s, const double *uniform, size_t j, size_t lane)
+INLINE void charge_panel(const struct br_segments *s, const double *uniform, size_t j, size_t lane)
 {
     const size_t entry = (size_t)d * BR_LANES;
-    const struct piece at = piece_at(s, j, lane);
+    const struct panel at = panel_at(s, j, lane);
     const vec g[2] = {{0}};
     vec p[2] = {{0}}, y[2] = {{0}}, sum[2], kappa[2], f[2];
     for (int i = 0; i < d; i++)
@@ -362,16 +362,16 @@ INLINE void charge_piece(const struct br_strip *s, const double *uniform, size_t
     store_all(y, at.end + BR_END_LOAD_Z * entry);
 }
 
-static void charge(const struct br_strip *s, const double uniform[2])
+static void charge(const struct br_segments *s, const double uniform[2])
 {
-    for (size_t j = 0; j < s->pieces; j++)
+    for (size_t j = 0; j < s->panels; j++)
         for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
-            charge_piece(s, uniform, j, lane);
+            charge_panel(s, uniform, j, lane);
 }
 
 /* ---- joins ---- */
 
-/* z or q of a piece, with that of its load */
+/* z or q of a panel, with that of its load */
 INLINE void load_end(const double *end, int which, double factor, vec *value)
 {
     const int entry = d * BR_LANES;
@@ -380,8 +380,8 @@ INLINE void load_end(const double *end, int which, double factor, vec *value)
                    factor * load(end + (which + BR_END_LOAD_Q - BR_END_Q) * entry + i * BR_LANES);
 }
 
-/* Goes one piece to the left: h passes the join, and the span's z is summed. */
-INLINE void gather_piece(const double *join, double *end, double factor, vec *h, vec *sum)
+/* Goes one panel to the left: h passes the join, and the segment's z is summed. */
+INLINE void gather_panel(const double *join, double *end, double factor, vec *h, vec *sum)
 {
     const int entry = d * BR_LANES;
     vec next[2], drift[2];
@@ -397,17 +397,17 @@ INLINE void gather_piece(const double *join, double *end, double factor, vec *h,
         h[i] = next[i];
 }
 
-/* A span has a free right end here: h = 0. */
-static void gather(const struct br_strip *s, double factor, double *q, double *z)
+/* A segment has a free right end here: h = 0. */
+static void gather(const struct br_segments *s, double factor, double *q, double *z)
 {
     for (size_t lane = 0; lane < s->lanes; lane += GO) {
         vec h[VECTORS][2] = {{{0}}}, sum[VECTORS][2] = {{{0}}};
-        for (size_t j = s->pieces; j-- > 0;) {
-            double *end = piece_at(s, j, lane).end;
-            for (int i = 0; i < BR_ENDS * d; i++) /* of a piece further on */
+        for (size_t j = s->panels; j-- > 0;) {
+            double *end = panel_at(s, j, lane).end;
+            for (int i = 0; i < BR_ENDS * d; i++) /* of a panel further on */
                 __builtin_prefetch(end - (8 * BR_ENDS * d - i) * BR_LANES);
             for (int v = 0; v < VECTORS; v++)
-                gather_piece(join_of(s, j), end + v * WIDTH, factor, h[v], sum[v]);
+                gather_panel(join_of(s, j), end + v * WIDTH, factor, h[v], sum[v]);
         }
         for (int v = 0; v < VECTORS; v++) {
             store_all(h[v], q + lane + v * WIDTH);
@@ -416,11 +416,11 @@ static void gather(const struct br_strip *s, double factor, double *q, double *z
     }
 }
 
-/* sum += a x, with a matrix of the span joins in each lane: all lanes at once. Only the recursion
- * over the lanes goes lane by lane. */
-INLINE void add_lanewise(const struct br_strip *s, int which, const double *x, double *sum)
+/* sum += a x, with a matrix of the segment joins in each lane: all lanes at once. Only the
+ * recursion over the lanes goes lane by lane. */
+INLINE void add_lanewise(const struct br_segments *s, int which, const double *x, double *sum)
 {
-    const double *a = s->span_join + which * d * d * BR_LANES;
+    const double *a = s->segment_join + which * d * d * BR_LANES;
     for (int lane = 0; lane < BR_LANES; lane += WIDTH)
         for (int i = 0; i < d; i++) {
             vec total = load(sum + i * BR_LANES + lane);
@@ -430,10 +430,10 @@ INLINE void add_lanewise(const struct br_strip *s, int which, const double *x, d
         }
 }
 
-static void join_left(const struct br_strip *s, const double *q, const double *z, double *h,
+static void join_left(const struct br_segments *s, const double *q, const double *z, double *h,
                       double *right)
 {
-    const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
+    const double *pass = s->segment_join + BR_JOIN_PASS * d * d * BR_LANES;
     _Alignas(64) double own[2 * BR_LANES];
     memcpy(own, q, d * BR_LANES * sizeof *own);
     add_lanewise(s, BR_JOIN_TRANSFER, z, own);
@@ -450,10 +450,10 @@ static void join_left(const struct br_strip *s, const double *q, const double *z
     }
 }
 
-static void join_right(const struct br_strip *s, const double *z, double *y, double *left,
+static void join_right(const struct br_segments *s, const double *z, double *y, double *left,
                        double *right)
 {
-    const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
+    const double *pass = s->segment_join + BR_JOIN_PASS * d * d * BR_LANES;
     _Alignas(64) double own[2 * BR_LANES] = {0}, away[2 * BR_LANES];
     for (size_t i = 0; i < d * BR_LANES; i++)
         away[i] = -right[i];
@@ -476,14 +476,14 @@ static void join_right(const struct br_strip *s, const double *z, double *y, dou
 
 /* ---- to the nodes ---- */
 
-/* kappa_w or kappa_v, carried from the left ends of the spans. */
-static void carry(const struct br_strip *s, bool rate, double *across)
+/* kappa_w or kappa_v, carried from the left ends of the segments. */
+static void carry(const struct br_segments *s, bool rate, double *across)
 {
     for (size_t lane = 0; lane < s->lanes; lane += GO) {
         const size_t entry = (size_t)d * BR_LANES;
         const double *state = s->state + lane + (rate ? entry : 0);
         vec y[VECTORS][2] = {{{0}}};
-        for (size_t e = 0; e < s->pieces * s->length; e++)
+        for (size_t e = 0; e < s->panels * s->length; e++)
             for (int v = 0; v < VECTORS; v++) {
                 vec kappa[2];
                 load_all(state + e * 2 * entry + v * WIDTH, kappa);
@@ -495,10 +495,10 @@ static void carry(const struct br_strip *s, bool rate, double *across)
 }
 
 /* Transposes block after block of WIDTH values of each lane. */
-static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
+static void expand(const struct br_segments *s, bool rate, const double *left, double *nodal)
 {
     for (size_t lane = 0; lane < s->lanes; lane += GO) {
-        const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
+        const size_t entry = (size_t)d * BR_LANES, length = s->panels * s->length;
         const size_t together = (size_t)(WIDTH / d); /* elements of a block */
         const double *state = s->state + lane + (rate ? entry : 0);
         vec y[VECTORS][2], row[VECTORS][WIDTH];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tables of a piece, of its joins and of those of the spans, in long double; see pieces.h. One
+/* Tables of a panel, of its joins and of those of the segments, in long double; see panels.h. One
  * Euler step of either field is the linear-quadratic problem of plain.h. Bending's second curvature
  * is divided by sqrt(3) here, so that R is a number; costates, P and loads are divided by R, so
  * that R becomes 1. */
 #include <math.h>
 
 #include "solver/linear/block.h"
-#include "solver/linear/riccati/pieces.h"
+#include "solver/linear/riccati/panels.h"
 
 /* ---- an element ---- */
 
@@ -33,7 +33,7 @@ static struct block mass_of(int d, wide mass, int row, int column)
 static struct lq lq_of_field(const struct br_field *field)
 {
     static const struct block one = {{{1}}}, t = {{{1, 1}, {0, 1}}},
-                              g = {{{0.5L, -BR_PIECES_ROOT3 / 6}, {1, 0}}};
+                              g = {{{0.5L, -BR_PANELS_ROOT3 / 6}, {1, 0}}};
     const bool rod = field->kind == BR_AXIAL;
     const int d = rod ? 1 : 2;
     const wide h = field->h, stiff = (wide)field->viscosity + (wide)field->k * field->stiffness;
@@ -85,14 +85,14 @@ static void pack(int d, int sign, struct block from, double *to)
             to[i * d + j] = (double)(sign * from.e[i][j]);
 }
 
-/* The matrices of a piece or a span as a whole (solver/README.md). */
+/* The matrices of a panel or a segment as a whole (solver/README.md). */
 struct whole {
     struct block phi, z, p;
 };
 
-/* ---- pieces ---- */
+/* ---- panels ---- */
 
-/* The gains of the elements of a piece by their distance to its right end, and P at the right end
+/* The gains of the elements of a panel by their distance to its right end, and P at the right end
  * of each: longest + 1 of them, of which the first is 0. `gains`: the leftmost element's first. */
 static bool fill_gains(const struct lq *lq, size_t longest, double *gains, struct gain *gain,
                        struct block *p)
@@ -110,8 +110,8 @@ static bool fill_gains(const struct lq *lq, size_t longest, double *gains, struc
     return true;
 }
 
-/* The weights of a piece, transposed responses of -kappa to c and of kappa to y_l; returns the
- * matrices of the piece without P. zeta: workspace, `length` of them. */
+/* The weights of a panel, transposed responses of -kappa to c and of kappa to y_l; returns the
+ * matrices of the panel without P. zeta: workspace, `length` of them. */
 static struct whole fill_weights(const struct lq *lq, const struct gain *gain, size_t length,
                                  struct block *zeta, double *weight)
 {
@@ -134,11 +134,11 @@ static struct whole fill_weights(const struct lq *lq, const struct gain *gain, s
 /* ---- joins ---- */
 
 struct join {
-    struct block of[BR_SPAN_JOINS];
+    struct block of[BR_SEGMENT_JOINS];
 };
 
-/* The join of a piece or span; c: C of the right end (in), and of the left end (out). (1 + Z C)^-1
- * has a determinant of at least 1. */
+/* The join of a panel or segment; c: C of the right end (in), and of the left end (out). (1 + Z
+ * C)^-1 has a determinant of at least 1. */
 static struct join join_of(const struct whole *w, struct block *c)
 {
     const struct block phi_t = transpose(w->phi), m = inverse_of(plus_times(identity, w->z, *c));
@@ -156,14 +156,14 @@ static struct join join_of(const struct whole *w, struct block *c)
     return join;
 }
 
-/* The joins of a span; returns the matrices of the span. */
-static struct whole fill_span(int d, const struct whole *piece, size_t pieces, double *to)
+/* The joins of a segment; returns the matrices of the segment. */
+static struct whole fill_segment(int d, const struct whole *panel, size_t panels, double *to)
 {
     struct block c = {{{0}}}, ahead = identity, reach = identity, response = {{{0}}};
-    for (size_t j = pieces; j-- > 0;) {
-        const struct join join = join_of(piece, &c);
+    for (size_t j = panels; j-- > 0;) {
+        const struct join join = join_of(panel, &c);
         double *at = to + j * (size_t)(BR_JOINS * d * d);
-        for (int which = 0; which < BR_SPAN_JOINS; which++)
+        for (int which = 0; which < BR_SEGMENT_JOINS; which++)
             pack(d, 1, join.of[which], at + which * d * d);
         const struct block part = times(ahead, join.of[BR_JOIN_YIELD]);
         pack(d, 1, times(ahead, join.of[BR_JOIN_GAIN]), at + BR_JOIN_LEAD * d * d);
@@ -176,28 +176,28 @@ static struct whole fill_span(int d, const struct whole *piece, size_t pieces, d
     return (struct whole){ahead, response, c};
 }
 
-/* The joins of the spans, from the tip to the clamped end. */
-static void fill_ends(struct br_pieces *s, const struct whole span[BR_MOST_STRANDS])
+/* The joins of the segments, from the tip to the clamped end. */
+static void fill_ends(struct br_panels *s, const struct whole segment[BR_MOST_GROUPS])
 {
-    const int d = s->d, entries = BR_SPAN_JOINS * d * d;
+    const int d = s->d, entries = BR_SEGMENT_JOINS * d * d;
     struct block c = {{{0}}};
-    for (int i = s->strands; i-- > 0;)
-        for (size_t lane = s->strand[i].strip.lanes; lane-- > 0;) {
-            const struct join join = join_of(&span[i], &c);
-            double packed[BR_SPAN_JOINS * 4];
-            for (int which = 0; which < BR_SPAN_JOINS; which++)
+    for (int i = s->groups; i-- > 0;)
+        for (size_t lane = s->group[i].segments.lanes; lane-- > 0;) {
+            const struct join join = join_of(&segment[i], &c);
+            double packed[BR_SEGMENT_JOINS * 4];
+            for (int which = 0; which < BR_SEGMENT_JOINS; which++)
                 pack(d, 1, join.of[which], packed + which * d * d);
             for (int entry = 0; entry < entries; entry++)
-                s->strand[i].strip.span_join[(size_t)entry * BR_LANES + lane] = packed[entry];
+                s->group[i].segments.segment_join[(size_t)entry * BR_LANES + lane] = packed[entry];
         }
 }
 
-enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err)
+enum br_status br_panels_tables(struct br_panels *s, struct br_error *err)
 {
     const struct lq lq = lq_of_field(&s->field);
-    const struct br_strip *of = &s->strand[0].strip; /* the longest pieces have all gains */
-    if (s->strand[s->strands - 1].strip.length > of->length)
-        of = &s->strand[s->strands - 1].strip;
+    const struct br_segments *of = &s->group[0].segments; /* the longest panels have all gains */
+    if (s->group[s->groups - 1].segments.length > of->length)
+        of = &s->group[s->groups - 1].segments;
     const size_t longest = of->length;
     s->r = (double)lq.r;
     struct gain *gain = br_allocate(longest, sizeof *gain);
@@ -206,17 +206,18 @@ enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err)
     if (!status && !fill_gains(&lq, longest, of->gain, gain, p))
         status = br_fail(err, BR_SINGULAR, "%s: the step is not positive definite",
                          br_field_names[s->field.kind]);
-    struct whole span[BR_MOST_STRANDS];
-    for (int i = 0; i < s->strands && !status; i++) {
-        struct br_strip *strip = &s->strand[i].strip;
-        strip->k = s->field.k;
-        strip->alpha = (double)lq.alpha;
-        struct whole piece = fill_weights(&lq, gain, strip->length, p + longest + 1, strip->weight);
-        piece.p = p[strip->length];
-        span[i] = fill_span(s->d, &piece, strip->pieces, strip->join);
+    struct whole segment[BR_MOST_GROUPS];
+    for (int i = 0; i < s->groups && !status; i++) {
+        struct br_segments *segments = &s->group[i].segments;
+        segments->k = s->field.k;
+        segments->alpha = (double)lq.alpha;
+        struct whole panel =
+            fill_weights(&lq, gain, segments->length, p + longest + 1, segments->weight);
+        panel.p = p[segments->length];
+        segment[i] = fill_segment(s->d, &panel, segments->panels, segments->join);
     }
     if (!status)
-        fill_ends(s, span);
+        fill_ends(s, segment);
     free(gain);
     free(p);
     return status;
