@@ -106,6 +106,8 @@ static const struct {
      "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 summary\n"},
     {"N e EOC\n8 1 -\n16 .2 2.0\nOverall EOC is 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 footer\n"},
     {"n,e\n10,1\n20,.2\nmean,3e-3\nstd,1\n", "n|e|\n10|1|\n20|.2|\n4 summary\n5 summary\n"},
+    {"n,e\n10,1\n20,.2\nmean,15,.6\n", "n|e|\n10|1|\n20|.2|\n4 footer\n"},
+    {"n,e\n10,1\n20,.2\nmean,15,.6\nmax,20,1\n", ":t:5: found 'max,20,1' between or beside"},
     {"n,e\n10,1\nmean,.2\n20,3e-3\n", "n|e|\n10|1|\nmean|.2|\n20|3e-3|\n"}, /* not the last */
     {"n e\n10 1 # a\n20 .2\n40 .1 # b", "n|e|\n10|1|\n20|.2|\n40|.1|\n2 comment\n4 comment\n"},
     {"n = 8 e = 1 #a\nn = 16 e = .2\n", "n|e|\n8|1|\n16|.2|\n1 comment\n"},
