@@ -55,8 +55,8 @@ static enum br_status wait_for(const char *path, int file, bool writer, struct b
     if (ready < 0)
         return fail_with_errno(path, err);
     return ready ? BR_OK
-                 : br_fail(err, BR_BAD_INPUT,
-                           "%s: is a pipe into which nothing writes (waited %d s)", path, PATIENCE);
+                 : br_fail(err, BR_BAD_INPUT, "%s: nothing was written to this pipe within %d s",
+                           path, PATIENCE);
 }
 
 /* Reads the stream once, to its end: a pipe cannot be read again. A named pipe has an end where it

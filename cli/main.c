@@ -15,7 +15,7 @@ static const struct br_command *const commands[] = {
 const struct br_program br_program = {
     .name = "beamrate",
     .about =
-        "how fast numbers converge: those of any program, and those of its own solver, a viscoelastic "
+        "the order of convergence of any program's numbers; and a solver of its own, of a viscoelastic "
         "beam that is pressed against an obstacle",
     .hint = "'beamrate help methods' lists schemes, solvers, rules, references, norms and formats.",
     .commands = commands,

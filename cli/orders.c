@@ -95,7 +95,8 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     if (br_option_given(o, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT, "--trust is given without a study file");
     if (br_option_given(o, BR_OPT_READ) != !!q->command)
-        return br_fail(err, BR_BAD_INPUT, "--run and --read belong together, found one of the two");
+        return br_fail(err, BR_BAD_INPUT,
+                       "--run needs --read, and --read needs --run: found one of the two");
     if (read_list(br_option_text(o, BR_OPT_N), "n", q, err) ||
         read_list(br_option_text(o, BR_OPT_K), "k", q, err))
         return err->status;
@@ -135,8 +136,7 @@ static enum br_status read_study(const char *path, const struct br_options *o,
     char *text = NULL;
     if (br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,
-                       "%s: what the study file says is given as an option, too, expected one "
-                       "of the two",
+                       "%s: an option repeats what the study file says: give it in one place",
                        path);
     const bool failed = br_text_load(path, BR_LONGEST_STUDY, "study file", &text, err) ||
                         br_study_file_read(path, text, o, study, err);
@@ -174,8 +174,8 @@ static enum br_status prepare(struct orders_run *r, struct br_error *err)
     r->check = br_study_file_check(&r->study, o);
     if (r->study.request.expectations == 0 && br_first_given(o, of_verdicts))
         return br_fail(err, BR_BAD_INPUT,
-                       "nothing is expected, so there are no verdicts to be written or "
-                       "compared: give --expect, or 'verify:' in a study file");
+                       "there is no verdict to write or compare: give --expect, or 'verify:' in "
+                       "a study file");
     const bool failed = br_verdicts_open(&r->verdicts, o, &r->check, 1, err) ||
                         br_verdicts_spare(&r->verdicts, r->study.request.table_path, err) ||
                         br_session_open(r->session, err);

@@ -264,10 +264,10 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         char source[SOURCE];
         name_row(numbers, b, path, source);
         return b->line ? br_fail(err, BR_BAD_INPUT,
-                                 "%s: the resolution is that of line %zu, expected each once; of "
-                                 "repeated runs, give the mean",
+                                 "%s: the same resolution as on line %zu, expected each once; give "
+                                 "the mean of repeated runs",
                                  source, a->line)
-                       : br_fail(err, BR_BAD_INPUT, "%s is there twice, expected once", source);
+                       : br_fail(err, BR_BAD_INPUT, "%s: found twice, expected once", source);
     }
     if (most < 3)
         return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolution%s, expected at least 3", path,

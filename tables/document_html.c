@@ -168,7 +168,7 @@ static void print_provenance(const struct br_markup_page *p, const struct br_pro
                                    {"Flags", from->flags},     {"Machine", from->machine}};
     if (!from->version)
         return;
-    br_markup_heading(p, 2, "Where this comes from");
+    br_markup_heading(p, 2, "How this was made");
     if (from->command_line)
         br_markup_lines(p, from->command_line);
     fputs("<dl>\n", p->out);

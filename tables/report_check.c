@@ -76,8 +76,8 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
 {
     char key[NAME], label[1200];
     snprintf(key, sizeof key, "defaults.%zu", number);
-    snprintf(label, sizeof label,
-             "%s has no verify part. Its defaults, to start from:", check->path);
+    snprintf(label, sizeof label, "%s has no verify part. To begin, paste these defaults",
+             check->path);
     br_put_command(d, key, label, check->defaults);
 }
 

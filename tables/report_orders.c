@@ -483,7 +483,7 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
         {.key = "column", .flags = BR_FOR_PROGRAMS},
         {.key = "size", .heading = "needs"},
     };
-    BR_TABLE(d, "needed", "What smaller errors need, if the order stays", 0, columns);
+    BR_TABLE(d, "needed", "Needed for smaller errors, if the order stays", 0, columns);
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_forecast f = br_orders_forecast_of(o, &o->of[i]);
         double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;

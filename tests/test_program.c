@@ -506,7 +506,7 @@ TEST(test_refused_lists)
     refuse(&p, BR_BAD_INPUT, "no list");
     p = program("true {n}");
     p.readings = 0;
-    refuse(&p, BR_BAD_INPUT, "no reading");
+    refuse(&p, BR_BAD_INPUT, "nothing to read");
 }
 
 /* ---- bad programs ---- */
@@ -1062,13 +1062,13 @@ TEST(test_readings)
         {REGEX, "^(.*)$", "3", 3, NULL},
         {REGEX, "(.*)", "3", 3, NULL},
         {REGEX, "([0-9]*)", "12 34", NAN, "matches 2 times, expected once; lines 1, 1"},
-        {REGEX, "e=([0-9.]+)", "e=1.5e-7", NAN, "a part of a number only, on line 1: 'e=1.5e-7'"},
-        {REGEX, "e=([0-9.]+)", "\ne=1.5D-7", NAN, "part of a number only, on line 2"},
-        {REGEX, "e=([0-9.]+)e", "e=1.5e-7", NAN, "part of a number"},
-        {REGEX, "e=([0-9.]+)", "e=1,5", NAN, "part of a number"},
-        {REGEX, "e=.*([0-9]+)", "e=12", NAN, "part of a number"},
-        {REGEX, "e=.*([0-9]+)", "e=1.5e-7", NAN, "part of a number"},
-        {REGEX, "e=-?([0-9]+)", "e=-12", NAN, "part of a number"},
+        {REGEX, "e=([0-9.]+)", "e=1.5e-7", NAN, "only a part of the number on line 1: 'e=1.5e-7'"},
+        {REGEX, "e=([0-9.]+)", "\ne=1.5D-7", NAN, "only a part of the number on line 2"},
+        {REGEX, "e=([0-9.]+)e", "e=1.5e-7", NAN, "part of the number"},
+        {REGEX, "e=([0-9.]+)", "e=1,5", NAN, "part of the number"},
+        {REGEX, "e=.*([0-9]+)", "e=12", NAN, "part of the number"},
+        {REGEX, "e=.*([0-9]+)", "e=1.5e-7", NAN, "part of the number"},
+        {REGEX, "e=-?([0-9]+)", "e=-12", NAN, "part of the number"},
         {REGEX, "e=(.*)", "e=1e999", NAN, "found '1e999'"},
         {REGEX, "e=(.*)", "e=1e-999", NAN, "found '1e-999'"},
         {REGEX, "e=(.*)", "e=1 2", NAN, "found '1 2'"},
@@ -1104,7 +1104,7 @@ TEST(test_readings)
         {CSV, "x", "x,x\n4,0.5", NAN, "found 2 columns 'x'"},
         {CSV, "x", "n,x\n", NAN, "found no row of numbers"},
         {CSV, "x", "", NAN, "the output:1: the table is empty"},
-        {CSV, "x", "n,x\n1,5,2\n", NAN, "the output:2: found more than 2 fields"},
+        {CSV, "x", "n,x\n1,5,2\n", NAN, "the output:2: found more than the 2 fields"},
         {CSV, "x", "n,x\n1\n", NAN, "found nothing below 'x'"},
         {CSV, "x", "n,x\n1,\n", NAN, "found '', expected a finite number"},
         {CSV, "x", "n,x\n1,nan\n", NAN, "found 'nan'"},

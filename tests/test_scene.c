@@ -129,7 +129,7 @@ TEST(test_no_file)
     char found[1024];
     const char *path = br_test_scene_file("");
     REFUSED(br_scene_find("example9", found, sizeof found, &err), BR_BAD_INPUT,
-            "scene 'example9' is no file and no bundled scene");
+            "'example9' is neither a file nor a bundled scene");
     MUST(br_scene_find(path, found, sizeof found, &err));
     assert_string_equal(found, path);
 }

@@ -64,7 +64,7 @@ static const struct br_option rows[] = {
      BR_TAKES_COUNTS, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
+     "the reference solution of the errors: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
      .words = &br_reference_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
      .more =
          "exact is the default; for a scene that was manufactured from a solution, it is mms. "
@@ -107,8 +107,8 @@ static const struct br_option rows[] = {
              "--steps, --tolerance and --methods all meshes, steps and time schemes are "
              "tried."},
     {BR_OPT_SECONDS, "seconds", 0, "S",
-     "goal: the least error with so many seconds of a march, set-up included", NULL,
-     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
+     "goal: the smallest error within so many seconds, set-up included", NULL, BR_TAKES_NUMBER,
+     BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
      .more = "One of --error and --seconds, for one scene."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
      "10", BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE,
@@ -152,9 +152,10 @@ static const struct br_option rows[] = {
      "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,
      BR_TAKES_TEXT,
      .commands = BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES,
-     .more = "May be given several times. KEY is any key of the scene, with its section: length, "
-             "friction.coefficient. It is added if the scene does not have it. VALUE is read as if "
-             "it stood in the file. Of several scenes each has it.",
+     .more =
+         "May be given several times. KEY is any key of the scene, with its section: length, "
+         "friction.coefficient. A key that the scene does not have is added. VALUE is written as in "
+         "the file. With several scenes, each gets it.",
      .repeats = true},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

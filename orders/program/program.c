@@ -171,7 +171,8 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
                 "the mesh (--dimension, or 'dimension:')";
     }
     if (!status && !numbers->quantities)
-        status = br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
+        status = br_fail(err, BR_BAD_INPUT,
+                         "every number that is read is a resolution, expected an error or a value");
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
@@ -284,7 +285,8 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
     if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
         return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
     if (program->readings == 0)
-        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
+        return br_fail(err, BR_BAD_INPUT,
+                       "found nothing to read, expected the name of a number and where it is");
     bool failed = br_program_rows(program, numbers, err) ||
                   make_quantities(program, numbers, err) || check_commands(&j, err) ||
                   (program->cache && open_cache(&j, err));

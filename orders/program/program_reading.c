@@ -129,7 +129,7 @@ static enum br_status take_group(struct search *s, const char *line, const regma
     if (match[1].rm_so < 0)
         return take_text(s, "", 0);
     if (is_cut(line, match))
-        return refuse(s, "its group has a part of a number only, on line %zu: '%s'", number,
+        return refuse(s, "its group has only a part of the number on line %zu: '%s'", number,
                       shown(buffer, line + match[0].rm_so));
     return take_text(s, line + match[1].rm_so, (size_t)(match[1].rm_eo - match[1].rm_so));
 }

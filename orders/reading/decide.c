@@ -196,15 +196,18 @@ static bool lacks_dimension(const struct br_roles *r, const struct br_candidate 
 static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
                          bool with_dimension, char text[TEXT])
 {
-    char name[80];
+    char name[90], shown[80];
     const struct br_resolution_column *s = c->size.states;
-    shown_name(r, c->size.column, name);
+    const bool nameless = !r->column[c->size.column].shown; /* then the label is its position */
+    snprintf(name, sizeof name, "%s%s", nameless ? "column " : "",
+             shown_name(r, c->size.column, shown));
     if (s->is_volume && !with_dimension)
         snprintf(text, TEXT, "h = %s^(-1/d)", name);
     else if (s->is_volume && c->size.dimension > 1)
         snprintf(text, TEXT, "h = %s^(-1/%g)", name, c->size.dimension);
     else if (s->is_size)
-        snprintf(text, TEXT, "%s from %s", br_axis_letters[s->axis], name);
+        snprintf(text, TEXT, "%s from %s%s", br_axis_letters[s->axis], nameless ? "" : "column ",
+                 name);
     else if (s->is_power)
         snprintf(text, TEXT, "h = 2^-%s", name);
     else
@@ -321,9 +324,10 @@ static enum br_status ask(const struct contest *t, const struct br_candidate *be
     say_order(t, best, error, a);
     say_option(t->roles, best, option_a);
     if (second->size.column == best->size.column && second->size.states == best->size.states)
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s: the sizes are not clear: %s: which dimension has the mesh? %s decides",
-                       path, a, option_a);
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "%s: the sizes are not clear: %s: which dimension does the mesh have? %s decides", path,
+            a, option_a);
     return br_fail(err, BR_BAD_INPUT, "%s: the sizes are not clear: %s; %s: %s, or %s, decides",
                    path, a, say_order(t, second, error, b), option_a,
                    say_option(t->roles, second, option_b));
@@ -403,7 +407,7 @@ static enum br_status refuse_growth(const struct contest *t, const struct br_can
     shown_name(r, best->size.column, name);
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s: the errors grow where %s (%s) gets finer: rates%s; --column '%s=%s', if %s is %s",
+        "%s: the errors grow as %s gets finer (%s): rates%s; --column '%s=%s', if %s is %s",
         r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, true, reading), rates, name,
         best->size.states->is_size ? "n" : "h", name,
         best->size.states->is_size ? "a count" : "a size");

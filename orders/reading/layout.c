@@ -244,7 +244,7 @@ static void find_ends(struct layout *l)
 
 static enum br_status refuse_row(const struct layout *l, size_t line, const char *like)
 {
-    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than %zu fields, as the %s has", l->path,
+    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than the %zu fields of the %s", l->path,
                    l->line[line].number, l->row[line].count > l->width ? "more" : "fewer", l->width,
                    like);
 }
@@ -330,7 +330,7 @@ static enum br_status check_blocks(const struct layout *l)
         if (l->row[i].is_row && l->line[i].number > l->line[next_text(l, i, -1)].number + 1 &&
             begins_again(l, i))
             return br_fail(l->err, BR_BAD_INPUT,
-                           "%s:%zu: found rows that begin again as on line %zu, expected one table",
+                           "%s:%zu: the rows begin again as on line %zu, expected one table",
                            l->path, l->line[i].number, l->line[l->first].number);
     return BR_OK;
 }
@@ -568,7 +568,7 @@ static enum br_status find_heading(struct layout *l)
         return refuse_row(l, above, "first row");
     const size_t count = l->row[above].count;
     const size_t row = l->width > count && is_short(l, first) ? next_text(l, first, 1) : first;
-    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than %zu fields, as the heading has",
+    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than the %zu fields of the heading",
                    l->path, l->line[row].number, l->width > count ? "more" : "fewer", count);
 }
 
@@ -642,16 +642,16 @@ static enum br_status check_marks(const struct layout *l)
         if (reads ? f->mark == ',' && has_fractions(f, i % f->columns)
                   : br_field_read(text, other, &number) || strchr(text, f->mark))
             return br_fail(l->err, BR_BAD_INPUT,
-                           "%s:%zu: found '%.40s' beside numbers with '%c', expected one sign "
-                           "before decimals, and none before thousands",
+                           "%s:%zu: found '%.40s' beside numbers with '%c': use one decimal mark "
+                           "in the whole table, and no thousands separators",
                            l->path, line, text, f->mark);
         doubt = doubt || !reads || strlen(strchr(text, other)) != 4 ? doubt : line;
     }
     return !doubt || points
                ? BR_OK
                : br_fail(l->err, BR_BAD_INPUT,
-                         "%s:%zu: found a comma before three digits only, expected no sign before "
-                         "thousands, or a point before decimals",
+                         "%s:%zu: each comma stands before three digits: remove thousands "
+                         "separators, or write decimals with a point",
                          l->path, doubt);
 }
 

@@ -211,7 +211,7 @@ enum br_status br_lines_cut(char *text, const char *path, struct br_store *store
         const char *const last = line_end(at);
         const size_t first = number;
         if (!last)
-            return br_fail(err, BR_BAD_INPUT, "%s:%zu: a quote is open to the end", path, number);
+            return br_fail(err, BR_BAD_INPUT, "%s:%zu: a quote is never closed", path, number);
         char *const begin = at, *const end = at + (last - at);
         for (; at < end; at++)
             number += *at == '\n';

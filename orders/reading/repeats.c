@@ -49,9 +49,9 @@ static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_
     const bool lines = r->fields->line[row];
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s%s%s: the resolution is that of %s, expected each once: --where chooses "
-        "one of several studies, by a column that differs between them; of repeated runs, "
-        "give the mean, or each size at least twice",
+        "%s%s%s: the same resolution as in %s: if these are several studies, choose one with "
+        "--where COLUMN=WORD; if they are repeated runs, give their mean, or each size at least "
+        "twice",
         r->wishes->path, lines ? ":" : ": ",
         br_row_place(r->fields, row, place) + (lines ? strlen("line ") : 0),
         br_row_place(r->fields, before, other));

@@ -50,7 +50,7 @@ static enum br_status refuse(const char *name, const char *path, struct br_error
     if (!listed && !*br_suggest_file(name, suggestion))
         br_suggestion(name, (const char *const *)names, count, suggestion);
     const enum br_status status =
-        br_fail(err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)%s",
+        br_fail(err, BR_BAD_INPUT, "'%s' is neither a file nor a bundled scene (looked for %s)%s",
                 name, path, suggestion);
     br_scene_list_free(names, count);
     return status;

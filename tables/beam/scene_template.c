@@ -84,7 +84,7 @@ void br_scene_template_write(FILE *out)
         out,
         "# A scene of beamrate. Every number carries its unit; an expression, in x (m) and t (s),\n"
         "# carries it in brackets. Keys behind a # are optional, values after them are examples.\n"
-        "# Delete what is not to be modelled: it then costs nothing.\n");
+        "# Delete the parts that you do not need: they then cost nothing.\n");
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         if (*k->section)
             continue;
