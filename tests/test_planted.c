@@ -2,10 +2,10 @@
 /* Tests the checks themselves: the program is built with one planted bug after the other, and a
  * command that passes without the bug must end with exit code 1. A check of one scene is a part of
  * `beamrate check --all`, and cheaper. If no command can detect a bug, as one in a reference, a
- * test program must: it is built with the bug, and must fail. By default only a sample is planted: the
- * first bug of each command or test program that must detect it, of each folder, and of each kind.
- * usage: test_planted [SHARD SHARDS | NAME]: one of several shares, which can run side by side, or
- * one bug; without words, only whether each can be planted. */
+ * test program must: it is built with the bug, and must fail. By default only a sample is planted:
+ * the first bug of each command or test program that must detect it, of each folder, and of each
+ * kind. usage: test_planted [SHARD SHARDS | NAME]: one of several shares, which can run side by
+ * side, or one bug; without words, only whether each can be planted. */
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/words.h"
-#include "orders/reading/reading.h"
 #include "checks.h"
+#include "orders/reading/reading.h"
 
 /* A table and what it must give: the heading and each row in a line, with a bar behind each field;
  * then the lines that are left, "2 title". Or with a colon first, the refusal. */

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/beam/run.h"
 #include "base/clock.h"
+#include "cli/beam/run.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "plots/beam/pictures.h"
@@ -257,9 +257,9 @@ static enum br_status run(const struct br_options *options, struct br_session *s
     if (!br_ranks_first())
         return BR_OK; /* one rank does a single march */
     r = (struct scene_run){.options = options,
-                     .session = session,
-                     .out = br_option_text(options, BR_OPT_OUT),
-                     .json = br_option_text(options, BR_OPT_JSON)};
+                           .session = session,
+                           .out = br_option_text(options, BR_OPT_OUT),
+                           .json = br_option_text(options, BR_OPT_JSON)};
     const bool failed =
         prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
     close_results(&r, NULL, NULL);

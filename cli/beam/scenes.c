@@ -95,9 +95,7 @@ static enum br_status run(const struct br_options *o, struct br_session *session
         return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new");
     if (!br_ranks_first())
         return BR_OK;
-    return file       ? begin(file, err)
-           : o->words ? show(o->word[0], err)
-                      : list(err);
+    return file ? begin(file, err) : o->words ? show(o->word[0], err) : list(err);
 }
 
 const struct br_command br_command_scenes = {

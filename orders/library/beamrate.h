@@ -18,8 +18,8 @@
  * effect concerns the whole process: while a function of the library runs, the error handler of GSL
  * is off, and the last call that ends restores it. Results do not depend on the locale.
  *
- * ABI: libbeamrate.so.1. Functions may be added; where one goes, or a struct or number below changes,
- * the number in that name does, too. */
+ * ABI: libbeamrate.so.1. Functions may be added; where one goes, or a struct or number below
+ * changes, the number in that name does, too. */
 #ifndef BEAMRATE_H
 #define BEAMRATE_H
 

@@ -29,14 +29,14 @@ bool br_models(const struct br_scene *scene, enum br_part part);
 extern const char *const br_part_names[BR_PARTS];
 
 struct br_norm {
-    const char *name;                          /* as on the command line, and in file names */
-    const char *title;                         /* a sentence for a person: what the error is */
-    const char *symbol;                        /* a few words, for the axis of a plot */
-    const char *unit, *unit_markup;            /* plain, for gnuplot */
-    const char *theory;                        /* a sentence: what is proved of it */
-    enum br_measure level;                     /* its largest value over the time levels counts */
-    bool energy;  /* squares add up, and the strain rates' are summed over time */
-    bool printed; /* the norm of the paper's tables */
+    const char *name;               /* as on the command line, and in file names */
+    const char *title;              /* a sentence for a person: what the error is */
+    const char *symbol;             /* a few words, for the axis of a plot */
+    const char *unit, *unit_markup; /* plain, for gnuplot */
+    const char *theory;             /* a sentence: what is proved of it */
+    enum br_measure level;          /* its largest value over the time levels counts */
+    bool energy;                    /* squares add up, and the strain rates' are summed over time */
+    bool printed;                   /* the norm of the paper's tables */
 };
 
 extern const struct br_norm br_norm_l2, br_norm_energy, br_norm_tip;
