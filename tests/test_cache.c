@@ -112,6 +112,22 @@ static size_t spoil(char *bytes, size_t size, int how, struct br_test_random *ra
     return how != 2 ? size : br_test_index(random, 2) ? size + 8 : br_test_index(random, size);
 }
 
+static void is_asked(struct br_record *record, void *self)
+{
+    (void)record;
+    *(bool *)self = true;
+}
+
+TEST(test_without_a_folder)
+{
+    const struct br_cache none = {.take = true};
+    bool asked = false;
+    assert_true(br_cache_put(&none, "run", is_asked, &asked));
+    assert_true(br_cache_put(NULL, "run", is_asked, &asked));
+    assert_false(br_cache_take(&none, "run", is_asked, &asked));
+    assert_false(asked);
+}
+
 /* Whatever the bytes behind a right sum are: no crash, and of random ones nothing is taken. More
  * files with FUZZ=2000. */
 TEST(test_damaged_with_a_right_sum)
