@@ -90,8 +90,11 @@ static enum br_status not_yaml(const struct br_yaml *r, const yaml_parser_t *par
 {
     if (parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR)
         return br_no_memory(r->err, "the YAML parser");
-    return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
-                   parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
+    const bool block = parser->context && strstr(parser->context, "block scalar");
+    return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s%s", r->path,
+                   parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable",
+                   block ? "; a text that begins with '>' or '|' needs quotes, as in '>= 1.8'"
+                         : "");
 }
 
 /* Checks what the loader does not. The loader's time grows with the square of the nesting depth. A

@@ -110,7 +110,7 @@ static enum br_status begin_case(const struct br_orders *o, size_t quantity, enu
         .unit = q->unit ? q->unit : "",
         .points = points,
         .order = {NAN, NAN, NAN},
-        .may_miss = true,
+        .may_miss = !o->numbers->all_needed,
     };
     c->point = br_allocate(points + 1, sizeof *c->point);
     return c->point ? BR_OK : br_no_memory(err, "the orders");

@@ -435,6 +435,18 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal, s
     return status;
 }
 
+enum br_status br_orders_renew(struct br_orders *o, enum br_axis axis, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (struct br_quantity_orders *of = o->of; of < o->of + o->count && !status; of++) {
+        free(of->differences[axis].observed.point);
+        of->differences[axis] = (struct br_orders_line){0};
+        status = br_orders_add_differences(o, of, axis, err);
+        of->answer[axis] = find_answer(o, of, axis);
+    }
+    return status;
+}
+
 void br_orders_clear(struct br_orders *o)
 {
     for (size_t i = 0; i < o->count; i++) {

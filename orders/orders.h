@@ -84,6 +84,7 @@ struct br_numbers {
     double dimension;                  /* of the mesh, where unknowns or cells are counted */
     bool assumed;                      /* nobody stated it */
     bool samples;                      /* n counts samples, and not elements */
+    bool all_needed;                   /* a verdict fails where a number is missing */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
@@ -183,6 +184,9 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
+/* Finds the answers along an axis anew, after its differences have changed in the numbers. */
+enum br_status br_orders_renew(struct br_orders *orders, enum br_axis axis, struct br_error *err);
+
 /* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the
  * finest, with their limits, but not their orders (lines.c, for br_orders_find). */
 enum { BR_ORDERS_LEAST = 3 /* sizes of a line, for an order with an interval */ };
@@ -260,24 +264,34 @@ const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, 
 /* ---- verdicts ---- */
 
 struct br_order_expectation {
-    char quantity[64];
-    enum br_axis axis;
-    double order, tolerance; /* or, of exponential convergence, what one more of 1/z divides by */
-    bool exponential;
-    double down_to; /* the expected level at which errors stop falling; 0: none */
-    size_t line;    /* in a study file; 0: none */
+    char quantity[64]; /* "": the only one */
+    enum br_axis axis; /* BR_AXES: the only one that is refined */
+    struct br_expectation band;
 };
 
-/* Reads the expectations of a text on that line, "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2
- * down to 1e-9", and adds them to a list, which the caller owns. Fails with BR_BAD_INPUT or
+/* Reads the expectations of a text on that line, "l2: h 2 +- 0.1, k 1; H1 >= 0.9; drag = 2 down to
+ * 1e-9", or "2", and adds them to a list, which the caller owns. Fails with BR_BAD_INPUT or
  * BR_NO_MEMORY. */
 enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 
-/* Finds the verdict on each expectation: on a grid of errors by the answer, else on the line at the
- * finest size of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a
- * quantity or an axis is missing, or with BR_NO_MEMORY. */
+/* The quantity (out) that an expectation names: the same letters, else without regard to case; the
+ * number of quantities: there is none. Sets its axis, where it has none. Fails with BR_BAD_INPUT
+ * where several may be meant. */
+enum br_status br_expectation_find(const struct br_numbers *numbers,
+                                   struct br_order_expectation *expected, size_t *quantity,
+                                   struct br_error *err);
+
+/* Adds the verdict on the order of a quantity along the expectation's axis to a check's cases: on a
+ * grid of errors by the answer, else on the line at the finest size of the other axis. Fails with
+ * BR_BAD_INPUT where there is no line, or with BR_NO_MEMORY. */
+enum br_status br_orders_decide(const struct br_orders *orders, const struct br_quantity_orders *of,
+                                const struct br_order_expectation *expected, struct br_check *check,
+                                struct br_error *err);
+
+/* Adds that on each expectation. Fails as br_expectation_find and br_orders_decide do, and with
+ * BR_BAD_INPUT where there is no such quantity. */
 enum br_status br_orders_check(const struct br_orders *orders,
                                const struct br_order_expectation *expectations, size_t count,
                                struct br_check *check, struct br_error *err);

@@ -100,6 +100,43 @@ static enum br_status check_list(const struct br_orders_request *r, const char *
     return BR_OK;
 }
 
+/* Refuses an expectation that no order of the numbers can meet, and one that another has met. */
+static enum br_status check_expectation(const struct br_orders_request *r,
+                                        const struct br_numbers *numbers, size_t number,
+                                        const char *const *known, size_t count,
+                                        struct br_error *err)
+{
+    struct br_order_expectation e = r->expectation[number];
+    struct br_error inner = {0};
+    size_t quantity, other;
+    if (br_expectation_find(numbers, &e, &quantity, &inner))
+        return br_fail(err, inner.status, "%s: %s", br_orders_path(r), inner.message);
+    if (quantity == numbers->quantities)
+        return refuse_name(r, "what is expected", e.quantity, known, count, err);
+    const char *name = numbers->quantity[quantity].name, *axis = br_axis_letters[e.axis];
+    if (!numbers->column[e.axis])
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: an order of %s in %s is expected, and there is no resolution of %s",
+                       br_orders_path(r), name, axis,
+                       e.axis == BR_AXIS_SPACE ? "the mesh" : "the time steps");
+    if (numbers->column[e.axis]->is_degree && !e.band.exponential)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: an order of %s is expected, and errors over a degree have none: 'h "
+                       "exponential 8 +- 0.5' expects that each degree divides them by 8",
+                       br_orders_path(r), name);
+    if (numbers->unsettled)
+        return br_fail(err, BR_BAD_INPUT, "%s: an order of %s in %s is expected, and %s",
+                       br_orders_path(r), name, axis, numbers->unsettled);
+    for (size_t i = 0; i < number; i++) {
+        struct br_order_expectation f = r->expectation[i];
+        if (!br_expectation_find(numbers, &f, &other, &inner) && other == quantity &&
+            f.axis == e.axis)
+            return br_fail(err, BR_BAD_INPUT, "%s: the order of %s in %s is given twice",
+                           br_orders_path(r), name, axis);
+    }
+    return BR_OK;
+}
+
 enum br_status br_orders_check_lists(const struct br_orders_request *r,
                                      const struct br_numbers *numbers, const char *const *known,
                                      size_t count, struct br_error *err)
@@ -111,28 +148,9 @@ enum br_status br_orders_check_lists(const struct br_orders_request *r,
         if (numbers->quantity[i].is_value && br_lists(r->errors, numbers->quantity[i].name))
             return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
                            br_orders_path(r), numbers->quantity[i].name);
-    for (size_t i = 0; i < r->expectations; i++) {
-        const struct br_order_expectation *e = &r->expectation[i];
-        bool found = false;
-        for (size_t j = 0; j < numbers->quantities; j++)
-            found |= strcmp(numbers->quantity[j].name, e->quantity) == 0;
-        if (!found)
-            return refuse_name(r, "what is expected", e->quantity, known, count, err);
-        if (!numbers->column[e->axis])
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: an order of %s in %s is expected, and there is no resolution of %s",
-                           br_orders_path(r), e->quantity, br_axis_letters[e->axis],
-                           e->axis == BR_AXIS_SPACE ? "the mesh" : "the time steps");
-        if (numbers->column[e->axis]->is_degree && !e->exponential)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: an order of %s is expected, and errors over a degree have none: 'h "
-                           "exponential 8 +- 0.5' expects that each degree divides them by 8",
-                           br_orders_path(r), e->quantity);
-        if (numbers->unsettled)
-            return br_fail(err, BR_BAD_INPUT, "%s: an order of %s in %s is expected, and %s",
-                           br_orders_path(r), e->quantity, br_axis_letters[e->axis],
-                           numbers->unsettled);
-    }
+    for (size_t i = 0; i < r->expectations; i++)
+        if (check_expectation(r, numbers, i, known, count, err))
+            return err->status;
     return BR_OK;
 }
 
@@ -280,9 +298,15 @@ void br_orders_problem(const struct br_orders_request *r, char problem[40])
     }
     for (size_t i = 0; i < r->expectations; i++) {
         const struct br_order_expectation *e = &r->expectation[i];
+        const struct br_expectation *b = &e->band;
         snprintf(text, sizeof text, "%s %s %.17g %.17g %.17g", e->quantity,
-                 br_axis_letters[e->axis], e->order, e->tolerance, e->down_to);
+                 e->axis == BR_AXES ? "" : br_axis_letters[e->axis], b->order, b->tolerance,
+                 b->down_to);
         add_text(&sum, text);
+        if (b->highest > 0 || !isnan(b->ceiling)) {
+            snprintf(text, sizeof text, "%.17g %.17g %.17g", b->highest, b->floor, b->ceiling);
+            add_text(&sum, text);
+        }
     }
     br_sha256_end(&sum, digest);
     snprintf(problem, 40, "%.32s", digest);

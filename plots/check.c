@@ -16,8 +16,9 @@ static void add_order(struct br_figure *f, const struct br_case *c, double row, 
     const struct br_expectation *e = &c->expected;
     struct br_series *band = br_series_add(f, BR_PEN_BAND, "expected");
     br_quoted(band->end, sizeof band->end, &br_for_markup, label);
-    br_point_add(band, e->order - e->tolerance, row, NULL);
-    br_point_add(band, (e->highest > 0 ? e->highest : e->order) + e->tolerance, row, NULL);
+    const double low = br_expectation_low(e), high = br_expectation_high(e);
+    br_point_add(band, low, row, NULL);
+    br_point_add(band, isfinite(high) ? high : fmax(low, c->order.high), row, NULL);
     br_point_add(marks, c->order.value, row, NULL);
     br_point_add(line, c->order.low, row, NULL);
     br_point_add(line, c->order.high, row, NULL);

@@ -52,12 +52,13 @@ static bool read_case(const json_t *o, struct br_case *c)
     c->verdict = (enum br_verdict)verdict;
     c->measure = json_string_value(json_object_get(o, "norm"));
     c->part = json_string_value(json_object_get(o, "part"));
+    const json_t *tolerance = json_object_get(o, "tolerance"); /* null: the order is the least */
     return kind < BR_VERIFY_KINDS && verdict <= BR_INCONCLUSIVE && c->measure && c->part &&
            read_number(json_object_get(o, "order"), -INFINITY, &c->order.value) &&
            read_number(json_object_get(o, "constant"), 0, &c->constant) &&
            read_number(json_object_get(o, "expected"), 0, &e->order) &&
            (!highest || read_number(highest, 0, &e->highest)) &&
-           read_number(json_object_get(o, "tolerance"), 0, &e->tolerance) &&
+           (json_is_null(tolerance) || read_number(tolerance, 0, &e->tolerance)) &&
            read_number(json_object_get(o, "floor"), 0, &e->floor) &&
            read_number(json_object_get(o, "ceiling"), 0, &e->ceiling);
 }

@@ -162,7 +162,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         {.key = "floor", .flags = BR_FOR_PROGRAMS},
         {.key = "ceiling", .heading = "allowed range"},
     };
-    char order[NAME];
+    char order[NAME], expected[BR_EXPECTATION_TEXT];
     BR_TABLE(d, "orders", "All orders", BR_MAIN | BR_LONG, orders_columns);
     for (size_t i = 0; i < f->count; i++) {
         const struct br_check *check = &f->checks[i];
@@ -180,9 +180,9 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
             BR_PUT_ROW(d, br_text(br_verdict_names[c->verdict]), br_text(check->name),
                        br_text(br_verify_names[c->kind]), br_text(c->measure), br_text(c->part),
                        br_number(e->order));
-            br_put_shown(d, "%s +- %g", br_range_text(e->order, e->highest, order, sizeof order),
-                         e->tolerance);
-            BR_PUT_CELLS(d, br_number(e->tolerance), br_if(e->highest > 0, br_number(e->highest)),
+            br_put_shown(d, "%s", br_expectation_text(e, expected));
+            BR_PUT_CELLS(d, br_if(e->tolerance > 0, br_number(e->tolerance)),
+                         br_if(e->highest > 0, br_number(e->highest)),
                          br_text(*e->why ? e->why : NULL), br_text(c->law),
                          br_number(c->order.value));
             br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));

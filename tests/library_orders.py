@@ -94,6 +94,12 @@ def check_frame(frame):
     assert repr(again) == repr(found)
     found.assert_order(2, quantity="L2")
     refused("H1: FAIL: the order, 1.000 [", lambda: found.assert_order(2), AssertionError)
+    found.assert_order("l2: h 2 +- 0.1; h1 >= 0.9")
+    found.assert_order(0.9, tolerance=0)
+    refused("H1: FAIL: the order, 1.000 [", lambda: found.assert_order("L2=2, H1 >= 1.1"), AssertionError)
+    refused("at least 1.1", lambda: found.assert_order(1.1, tolerance=0), AssertionError)
+    refused("2 columns may be meant", lambda: found.check("2"))
+    assert [case.measure for case in found.check("h1 = 1", "L2 >= 1.9").cases] == ["H1", "L2"]
     refused("expected one of ['L2', 'H1']", lambda: found["l2"])
     refused("expected columns of", lambda: br.orders(frame, h="dx"))
 

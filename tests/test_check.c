@@ -123,6 +123,39 @@ TEST(test_unstable_reference)
     assert_int_equal(c->point[2].flag, BR_FLAG_NONE);
     assert_int_equal(c->point[3].flag, BR_FLAG_UNSTABLE);
     assert_int_equal(c->verdict, BR_INCONCLUSIVE);
+    assert_non_null(strstr(c->reason, "; expect it of n: 10, 20, 40, 80, 160, 320"));
+    made_clear(&m);
+}
+
+/* What would settle a verdict is a line for the part `verify` of the scene. */
+TEST(test_sizes)
+{
+    struct made_check m;
+    made_create(&m);
+    struct br_verify_study *space = &m.verify.study[BR_VERIFY_SPACE];
+    m.scene.axial.modelled = false;
+    m.scene.bending.modelled = true;
+    m.scene.bending.load = br_test_load("sin(x)*(1 + t)");
+    br_verify_expect_default(&m.scene, &m.verify);
+    m.verify.study[BR_VERIFY_JOINT].count = 4;
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        m.verify.study[kind].expectation[0].band.tolerance = 1e-9;
+    for (size_t i = 0; i < space->count; i++) { /* to where errors are round-off */
+        space->n[i] = (size_t)16 << 3 * i;
+        space->steps[i] = 1;
+    }
+    made_run(&m, 1);
+    static const char *const sizes[BR_VERIFY_KINDS] = {
+        "; expect it of n: 2, 16, 128, 1024, 8192, 65536",
+        "; expect it of k: 0.001, 0.0005, 0.00025, 0.000125, 6.25e-05, 3.125e-05 s",
+        "; expect it of n: 10, 20, 40, 80, 160 k: 0.01, 0.0025, 0.000625, 0.00015625, "
+        "3.90625e-05 s"};
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        const struct br_case *c = case_of(&m, (enum br_verify_kind)kind);
+        if (c->verdict != BR_INCONCLUSIVE || !strstr(c->reason, sizes[kind]))
+            fail_msg("%s: %s", br_verdict_names[c->verdict], c->reason);
+    }
+    br_load_clear(&m.scene.bending.load);
     made_clear(&m);
 }
 
@@ -272,6 +305,14 @@ TEST(test_comparison)
     compare(&m, &old, false, BR_SAME, "");
     *now = expected;
     *first = sound;
+    now->tolerance = first->expected.tolerance = 0; /* a least order: a higher one is no harm */
+    first->order.value -= 1;
+    compare(&m, &old, false, BR_NOTE, "made space l2 axial: order");
+    first->order.value += 1.1;
+    compare(&m, &old, false, BR_WARNING, "made space l2 axial: order");
+    *first = sound; /* a band had an upper end */
+    compare(&m, &old, false, BR_WARNING, "made space l2 axial: expectation");
+    *now = expected;
     old.check->seconds = NAN;
     compare(&m, &old, false, BR_SAME, "");
     old.check->seconds = m.check.seconds / 10;

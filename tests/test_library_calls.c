@@ -160,6 +160,16 @@ TEST(orders_of_a_table)
     WORKS(beamrate_orders_report(orders, &json, &failure));
     assert_non_null(strstr(json, "\"answer\": [\n  \"e: order 2.00"));
     assert_non_null(strstr(json, "\"gci_fine\": "));
+    WORKS(beamrate_orders_expect(&check, orders, "V >= 0.9; e: h 2", &failure));
+    assert_int_equal(beamrate_check_count(check), 2);
+    beamrate_check_case(check, 0, &c);
+    assert_int_equal(c.verdict, BEAMRATE_PASS);
+    assert_string_equal(c.measure, "v");
+    CLOSE(c.tolerance, 0, 0);
+    beamrate_check_free(check);
+    ENDS(beamrate_orders_expect(&check, orders, "2", &failure), BEAMRATE_BAD_INPUT,
+         "2 columns may be meant");
+    ENDS(beamrate_orders_expect(&check, orders, NULL, &failure), BEAMRATE_BAD_INPUT, "found NULL");
     const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
     ENDS(beamrate_orders_check_quantity(&check, orders, 2, &expected, 1, &failure),
          BEAMRATE_BAD_INPUT, "quantity: found 2, expected less than 2");

@@ -50,6 +50,7 @@ static void make(struct made *m, double a, double p, double b, double q)
 
 static void see(struct made *m)
 {
+    br_report_clear(&m->report);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         MUST(br_fit(&m->study, part, &m->report.fits[part], &err));
     }
@@ -156,6 +157,7 @@ static void expect_theory(const struct made *m, enum br_part part, double in_h, 
         MUST(br_report_observe_orders(&r, axis, &err));
     assert_true(r.observed[part][BR_AXIS_SPACE].theory.order == in_h);
     assert_true(r.observed[part][BR_AXIS_TIME].theory.order == in_k);
+    br_report_clear(&r);
 }
 
 TEST(test_theory)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/load.h"
+#include "base/words.h"
 #include "checks.h"
 #include "orders/request.h"
 
@@ -338,7 +339,7 @@ TEST(test_headings)
 TEST(test_assumed_dimension)
 {
     struct br_order_expectation e = {
-        .quantity = "e", .axis = BR_AXIS_SPACE, .order = 2, .tolerance = 0.1};
+        .quantity = "e", .axis = BR_AXIS_SPACE, .band = {.order = 2, .tolerance = 0.1}};
     struct br_orders_request q = {.path = (char *)"t.csv",
                                   .table = (char *)"dofs,e\n8,16\n64,4\n512,1\n",
                                   .expectation = &e,
@@ -354,6 +355,14 @@ TEST(test_assumed_dimension)
     strcpy(e.quantity, "l");
     REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT,
             "t.csv: what is expected: there is no column 'l', expected one of: e");
+    br_numbers_clear(&n);
+    struct br_order_expectation twice[] = {e, e};
+    strcpy(twice[0].quantity, "E");
+    strcpy(twice[1].quantity, "");
+    twice[1].axis = BR_AXES;
+    q.expectation = twice;
+    q.expectations = 2;
+    REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, "the order of e in h is given twice");
     br_numbers_clear(&n);
 }
 
@@ -430,7 +439,7 @@ TEST(test_degrees)
                               &err));
     MUST(br_orders_read(&q, &n, &err));
     br_numbers_clear(&n);
-    q.expectation[0].exponential = false;
+    q.expectation[0].band.exponential = false;
     REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, "errors over a degree have none");
     br_numbers_clear(&n);
     free(q.expectation);
@@ -937,33 +946,80 @@ TEST(test_grammar)
     assert_int_equal(count, 3);
     assert_string_equal(e[0].quantity, "l2");
     assert_int_equal(e[0].axis, BR_AXIS_SPACE);
-    CLOSE(e[0].order, 2, 0);
-    CLOSE(e[0].tolerance, 0.1, 0);
-    CLOSE(e[0].down_to, 0, 0);
+    CLOSE(e[0].band.order, 2, 0);
+    CLOSE(e[0].band.tolerance, 0.1, 0);
+    CLOSE(e[0].band.down_to, 0, 0);
     assert_string_equal(e[1].quantity, "l2");
     assert_int_equal(e[1].axis, BR_AXIS_TIME);
-    CLOSE(e[1].tolerance, 0.05, 0);
-    CLOSE(e[1].down_to, 1e-9, 0);
+    CLOSE(e[1].band.tolerance, 0.05, 0);
+    CLOSE(e[1].band.down_to, 1e-9, 0);
     assert_string_equal(e[2].quantity, "drag x");
     assert_int_equal(e[2].axis, BR_AXIS_TIME);
     free(e);
-    refuse_expectation("", "expected an error, h or k, its order and a tolerance, as in");
-    refuse_expectation("l2: h 2 +- .1, k 1 +- .1, h1: h 1 +- .1",
-                       "found 'h1: h 1 +- .1' behind a comma, expected h or k");
+    refuse_expectation("", "expected an order, as in 'l2: h 2 +- 0.1'");
     refuse_expectation("l2", "found 'l2', expected an error's name and ':'");
     refuse_expectation(": h 2 +- .1", "expected an error's name");
-    refuse_expectation("l2: x 2 +- .1", "found 'x 2 +- .1', expected h or k");
+    refuse_expectation("l2: x 2 +- .1", "found 'x 2 +- .1', expected an order above 0");
     refuse_expectation("l2: h -2 +- .1", "expected an order above 0");
     refuse_expectation("l2: h nan +- .1", "found 'nan +- .1', expected an order above 0");
-    refuse_expectation("l2: h 2", "found '', expected '+-'");
+    refuse_expectation("l2 = 2; h1; x = 2", "found 'h1; x = 2', expected an error's name");
+    refuse_expectation("l2 = two", "found 'two', expected an order above 0");
     refuse_expectation("l2: h 2 +- 0", "expected a tolerance above 0 and below the order");
     refuse_expectation("l2: h 2 +- 2", "expected a tolerance above 0 and below the order");
+    refuse_expectation("l2: h 4 to 2 +- .1", "expected an order above the first");
     refuse_expectation("l2: h 2 +- .1 down to 0", "expected an error above 0");
     refuse_expectation("l2: h 2 +- .1 more", "found 'more', expected ',' or ';' or the end");
-    refuse_expectation("l2: h 2 +- .1,", "expected h or k");
+    refuse_expectation("l2: h 2 +- .1,", "found '', expected an order above 0");
+    refuse_expectation("l2: h 2 +- .1, k two", "found 'two', expected an order above 0");
+    refuse_expectation("l2: h <= 2", "errors that do not fall have an order below any limit");
+    refuse_expectation("l2: h >= 0", "expected an order above 0");
+    refuse_expectation("l2: h >= 1.8 +- .1", "found '+- .1', expected ',' or ';' or the end");
+    refuse_expectation("l2: h exponential >= 1", "expected a factor above 1");
+    refuse_expectation("l2: h >= 1.8, at most 3", "it belongs to one order");
+    refuse_expectation("l2: h 2, constant 3 to 2",
+                       "expected a constant above 0, and above the first");
     refuse_expectation("l2: h 2 +- .1, h 1 +- .1", "the order of l2 in h is given twice");
+    refuse_expectation("2, >= 1", "the order of the errors is given twice");
     refuse_expectation("0123456789012345678901234567890123456789012345678901234567890123: h 2 +- 1",
                        "expected a name of at most 63 bytes");
+}
+
+/* Each text is read as another one says, in full. */
+TEST(test_short_grammar)
+{
+    static const char *const rows[][2] = {
+        {"2", " - 2 +- 0.2"},
+        {"h 2", " h 2 +- 0.2"},
+        {">= 1.8", " - >= 1.8"},
+        {"k \u2265 1.8", " k >= 1.8"},
+        {"at least 1.8", " - >= 1.8"},
+        {"L2=2", "L2 - 2 +- 0.2"},
+        {"L2 = 2 ; H1 = h 1", "L2 - 2 +- 0.2;H1 h 1 +- 0.1"},
+        {"L2 >= 1.8, k 1", "L2 - >= 1.8;L2 k 1 +- 0.1"},
+        {"L2=2, H1: h 1 +- .2; x >= 3", "L2 - 2 +- 0.2;H1 h 1 +- 0.2;x - >= 3"},
+        {"l2: h 2 to 4 +- .2, constant 2 to 3", "l2 h 2 to 4 +- 0.2, 2 to 3"},
+        {"l2: 2, at most 3, k >= 1", "l2 - 2 +- 0.2, nan to 3;l2 k >= 1"},
+        {"l2: exponential >= 8", "l2 - exponential >= 8"},
+        {"e [m = P1]: h 2; e [k = 2] >= 1; a>b: 3",
+         "e [m = P1] h 2 +- 0.2;e [k = 2] - >= 1;a>b - 3 +- 0.3"},
+        {"\"a: h 2\" = 3", "a: h 2 - 3 +- 0.3"},
+        {"2: h 1", "2 h 1 +- 0.1"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_order_expectation *e = NULL;
+        size_t count = 0;
+        char text[1024] = "", band[BR_EXPECTATION_TEXT];
+        MUST(br_expectations_read(rows[i][0], 0, &e, &count, &err));
+        for (size_t j = 0; j < count; j++) {
+            br_append(text, sizeof text, "%s%s %s %s", j ? ";" : "", e[j].quantity,
+                      e[j].axis == BR_AXES ? "-" : br_axis_letters[e[j].axis],
+                      br_expectation_text(&e[j].band, band));
+            if (!isnan(e[j].band.ceiling))
+                br_append(text, sizeof text, ", %g to %g", e[j].band.floor, e[j].band.ceiling);
+        }
+        free(e);
+        assert_string_equal(text, rows[i][1]);
+    }
 }
 
 /* The verdict on the last expectation of the text; BR_BAD_INPUT, in the place of one, where it has
@@ -1276,6 +1332,8 @@ TEST(test_verdicts)
                       drag[] = "h,u\n1,4\n.5,2\n.25,1.5\n.125,1.375\n.0625,1.34375\n";
     static const char spectral[] = "n,l2\n2,.01562\n3,.001953\n4,2.441e-4\n5,3.052e-5\n"
                                    "6,3.815e-6\n7,4.768e-7\n";
+    static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n",
+                      two[] = "h,Eh,eH\n1,4,4\n.5,1,1\n.25,.25,.25\n.125,.0625,.0625\n";
     char line[1024], grid[4096], floor[4096];
     strcpy(line, table_of(5, 0, 2, 0));
     strcpy(grid, table_of(5, 5, 2, 1));
@@ -1306,6 +1364,21 @@ TEST(test_verdicts)
         {spectral, NULL, "l2: h 4 +- 0.5", BR_FAIL, "the errors fall exponentially, by no order"},
         {line, NULL, "l2: h exponential 8 +- 0.5", BR_FAIL, "their order is 2.00"},
         {drag, "u", "u: h 2 +- 0.1", BR_PASS, ""},
+        {line, NULL, "2", BR_PASS, ""},
+        {line, NULL, "L2 = 2", BR_PASS, ""},
+        {line, NULL, ">= 1.8", BR_PASS, ""},
+        {line, NULL, "l2: h >= 2.1", BR_FAIL, "lies below the band, at least 2.1"},
+        {line, NULL, "l2: h 2, at most 2.9", BR_FAIL, "the constant, 3, is above its upper limit"},
+        {line, NULL, "l2: h 2, constant 2.9 to 3.1", BR_PASS, ""},
+        {digits, NULL, "l2: h >= 2", BR_INCONCLUSIVE, "contains the band's lower end, 2"},
+        {spectral, NULL, "exponential >= 7.5", BR_PASS, ""},
+        {spectral, NULL, "exponential >= 9", BR_FAIL, "expected at least 9"},
+        {grid, NULL, "k >= 0.9", BR_PASS, ""},
+        {grid, NULL, "2", REFUSED_ONE, "h and k are refined: expected one of the two"},
+        {two, NULL, "2", REFUSED_ONE, "2 columns may be meant: expected the name of one"},
+        {two, NULL, "Eh = 2; eH = 2", BR_PASS, ""},
+        {two, NULL, "eh = 2", REFUSED_ONE,
+         "an order of eh is expected, and 2 columns may be meant"},
         {line, NULL, "l3: h 2 +- .1", REFUSED_ONE,
          "t.csv: an order of 'l3' is expected, and there is no such column"},
         {line, NULL, "l2: k 2 +- .1", REFUSED_ONE,
@@ -1382,8 +1455,8 @@ TEST(test_study_file)
     CLOSE(r.formal, 4, 0);
     CLOSE(r.seconds, 60, 0);
     assert_int_equal(r.expectations, 3);
-    assert_int_equal(r.expectation[0].line, 15);
-    assert_int_equal(r.expectation[2].line, 16);
+    assert_int_equal(r.expectation[0].band.line, 15);
+    assert_int_equal(r.expectation[2].band.line, 16);
     assert_string_equal(r.expectation[2].quantity, "drag");
     br_orders_request_clear(&r);
     static const char *const lists[] = {"n", "h", "dofs", "k", "dt", "steps"};
@@ -1444,7 +1517,7 @@ TEST(test_long_expectation)
     struct br_orders_request r;
     snprintf(text, sizeof text, "run: a\nread: {a: b}\nverify:\n  a: 'h 2 +-%*s'\n", 995, "0.15");
     MUST(br_orders_request_read("s.yaml", text, &r, &err));
-    CLOSE(r.expectation[0].tolerance, 0.15, 0);
+    CLOSE(r.expectation[0].band.tolerance, 0.15, 0);
     br_orders_request_clear(&r);
 }
 

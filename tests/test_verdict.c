@@ -20,7 +20,7 @@ static void make(struct made *m, const double *error, size_t count)
 {
     *m = (struct made){
         .it = {.kind = BR_VERIFY_JOINT,
-               .expected = {1, 0.1, NAN, NAN, 7, 0, ""},
+               .expected = {1, 0.1, NAN, NAN, .line = 7},
                .measure = "l2",
                .part = "total",
                .unit = "m^(3/2)",
@@ -195,7 +195,7 @@ TEST(test_far_too_small)
     m.point[6].error /= 1000;
     reach(&m, BR_INCONCLUSIVE,
           "from (n = 640, k = T/6400) on the errors are far smaller than that");
-    m.it.down_to = m.point[6].error;
+    m.it.expected.down_to = m.point[6].error;
     m.point[6].flag = BR_FLAG_STALLED; /* as is expected */
     reach(&m, BR_PASS, "");
     make_power(&m, 1, 7);
@@ -248,22 +248,51 @@ TEST(test_any_unit)
     }
 }
 
-/* What would settle a verdict is a line for the part `verify` of a scene, or the row to add. */
+/* What would settle a verdict on a table is the row to add. */
 TEST(test_sizes)
 {
     static const double error[] = {1, .52, .27, .143};
     struct made m;
     make(&m, error, 4);
+    m.it.may_miss = true;
     reach(&m, BR_INCONCLUSIVE, "; add a row finer than (n = 80, k = T/800)");
-    m.it.duration = 2;
-    reach(&m, BR_INCONCLUSIVE,
-          "; expect it of n: 10, 20, 40, 80, 160 k: 0.02, 0.01, 0.005, 0.0025, 0.00125 s");
-    for (size_t i = 0; i < 4; i++)
-        m.point[i].against = (struct br_resolution){m.point[i].at.n * 2, m.point[i].at.steps};
-    m.it.kind = BR_VERIFY_SPACE;
-    reach(&m, BR_INCONCLUSIVE, "; expect it of n: 10, 20, 40, 80, 160, 320");
     m.point[2].flag = m.point[3].flag = BR_FLAG_ROUND_OFF;
-    reach(&m, BR_INCONCLUSIVE, "; expect it of n: 5, 10, 20, 40, 80, 160");
+    reach(&m, BR_INCONCLUSIVE, "; add a row coarser than (n = 10, k = T/100)");
+}
+
+/* Of a least order the interval must lie above it; faster is right, and a constant is that of the
+ * observed order. */
+TEST(test_least_order)
+{
+    static const struct {
+        double order, least;
+        enum br_verdict verdict;
+        const char *reason;
+    } rows[] = {
+        {1, 0.99, BR_PASS, ""},
+        {3, 0.99, BR_PASS, ""},
+        {1, 1.01, BR_FAIL, "lies below the band, at least 1.01"},
+        {1, 1, BR_INCONCLUSIVE, "contains the band's lower end, 1; finer grids would decide"},
+        {0.01, 1, BR_FAIL, "lies below the band, at least 1; finer grids do not help"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct made m;
+        make_power(&m, rows[i].order, 5);
+        m.it.expected.order = rows[i].least;
+        m.it.expected.tolerance = 0;
+        reach(&m, rows[i].verdict, rows[i].reason);
+        CLOSE(m.it.margin, m.it.order.low - rows[i].least, 1e-15);
+        CLOSE(m.it.constant, 3, 1e-3);
+        assert_null(strstr(m.it.reason, "tolerance"));
+    }
+    static const double bad[][5] = {
+        {1e-3, 1e-3, 1e-3, 1e-3, 1e-3}, {1, 2, 4, 8, 16}, {1, .5, .25, NAN, .0625}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct made m;
+        make(&m, bad[i], 5);
+        m.it.expected.tolerance = 0;
+        reach(&m, BR_FAIL, "");
+    }
 }
 
 /* What the order does not say stands in the note. */

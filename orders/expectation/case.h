@@ -24,13 +24,34 @@ enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
 
 /* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */
 struct br_expectation {
-    double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
+    double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance;
+                                tolerance 0: above order, which is the least */
     double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
-    size_t line;             /* in the scene's file; 0: a default */
-    double highest; /* > order: or the errors fall by orders up to highest + tolerance, which
-                       do not rise with refinement: two powers of z; else 0 */
-    char why[160];  /* of a default: why not the formal order; or "" */
+    size_t line;             /* in the file that says so; 0: a default, or an option */
+    double highest;   /* > order: or the errors fall by orders up to highest + tolerance, which
+                         do not rise with refinement: two powers of z; else 0 */
+    bool exponential; /* `order` is what one more of 1/z divides the errors by */
+    double down_to;   /* the errors stop falling there; 0: nowhere */
+    char why[160];    /* of a default: why not the formal order; or "" */
 };
+
+/* The ends of the band; infinite: there is none. */
+double br_expectation_low(const struct br_expectation *expected);
+double br_expectation_high(const struct br_expectation *expected);
+
+/* What is expected of the order, as it is read: "2 +- 0.1", "2 to 4 +- 0.2 down to 1e-09",
+ * "exponential 8 +- 0.5", ">= 1.8"; returns text. */
+enum { BR_EXPECTATION_TEXT = 120 };
+char *br_expectation_text(const struct br_expectation *expected, char text[BR_EXPECTATION_TEXT]);
+
+/* Reads that, and what follows it of the constant: ", at most 3e-4 m", or ", constant 2e-4 to 3e-4
+ * m", in that unit ("": none). Before it may stand h or k, the axis (out; BR_AXES: neither). An
+ * order without a tolerance has a tenth. *at: moved to what follows. Fails with BR_BAD_INPUT. */
+enum br_status br_expectation_read(const char **at, const char *unit, enum br_axis *axis,
+                                   struct br_expectation *expected, struct br_error *err);
+
+/* Refuses (BR_BAD_INPUT) a band without sense: it contains 0, or has no order above 0. */
+enum br_status br_expectation_check(const struct br_expectation *expected, struct br_error *err);
 
 enum br_verdict {
     BR_PASS,         /* the interval lies within the band */
@@ -71,7 +92,6 @@ struct br_case {
     bool may_miss; /* a point without a number is left out by name; else it fails the case */
     struct br_estimate order;
     double low99, high99;      /* the order's 99 % interval: what lies outside is excluded */
-    bool exponential;          /* `expected` is not an order, but what the factor below is to be */
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */
@@ -79,9 +99,7 @@ struct br_case {
     const char *open; /* why there is no verdict, and what would show an order; NULL; borrowed */
     bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's
                    */
-    double duration; /* T of the scene, s; 0: of another program */
-    double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
-    double margin;   /* from the interval to the nearer end of the band; < 0: outside */
+    double margin; /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;
     char reason[768]; /* why it does not pass, and what would make it pass or fail; or "" */
     char note[512];   /* what was left out; or "" */

@@ -119,24 +119,21 @@ static const struct br_case *find_case(const struct br_check *check, const struc
 /* Whether a limit has gone or moved outward; direction: 1 for an upper one, -1 for a lower one. */
 static bool is_looser(double before, double now, double direction)
 {
-    return !isnan(before) && !(direction * (now - before) <= 1e-9 * fabs(before));
+    return before != now && !isnan(before) && !(direction * (now - before) <= 1e-9 * fabs(before));
 }
 
 /* A band that is wider lets pass what failed before. */
 static bool expects_less(const struct br_expectation *e, const struct br_expectation *old)
 {
-    const double old_high = fmax(old->order, old->highest) + old->tolerance;
-    return is_looser(old_high, fmax(e->order, e->highest) + e->tolerance, 1) ||
-           is_looser(old->order - old->tolerance, e->order - e->tolerance, -1) ||
+    return is_looser(br_expectation_high(old), br_expectation_high(e), 1) ||
+           is_looser(br_expectation_low(old), br_expectation_low(e), -1) ||
            is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1);
 }
 
 /* "2 to 4 +- 0.2, at most 8" */
 static const char *say_expectation(const struct br_expectation *e, char text[160])
 {
-    char order[64];
-    snprintf(text, 160, "%s +- %g", br_range_text(e->order, e->highest, order, sizeof order),
-             e->tolerance);
+    br_expectation_text(e, text);
     if (isfinite(e->floor))
         br_append(text, 160, ", %g to %g", e->floor, e->ceiling);
     else if (isfinite(e->ceiling))
@@ -150,17 +147,18 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
     const struct br_expectation *e = &c->expected, *before = &old->expected;
     char was[160], now[160], shown[80];
     const double shift = c->order.value - old->order.value;
+    const double tolerance = e->tolerance > 0 ? e->tolerance : e->order / 10; /* of a least order */
     const enum br_severity verdict = old->verdict == c->verdict ? BR_SAME
                                      : c->verdict == BR_PASS    ? BR_NOTE
                                                                 : BR_SERIOUS;
     enum br_severity order = isnan(old->order.value) && isnan(c->order.value)
                                  ? BR_SAME
-                                 : grade(fabs(shift) / e->tolerance, order_steps);
+                                 : grade(fabs(shift) / tolerance, order_steps);
     enum br_severity constant = grade(factor(old->constant, c->constant), constant_steps);
-    if (verdict == BR_NOTE) { /* what was missing or failed has not become worse */
+    if (verdict == BR_NOTE || (e->tolerance == 0 && shift > 0)) /* it has not become worse */
         order = order > BR_NOTE ? BR_NOTE : order;
+    if (verdict == BR_NOTE || e->tolerance == 0) /* it is that of the observed order */
         constant = constant > BR_NOTE ? BR_NOTE : constant;
-    }
     add(out, subject, "verdict", NAN, NAN, verdict, "%s before, %s now",
         br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
     add(out, subject, "expectation", before->order, e->order,
@@ -168,7 +166,7 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
         say_expectation(before, was), say_expectation(e, now));
     add(out, subject, "order", old->order.value, c->order.value, order,
         isnan(shift) ? "the baseline or this check has no order" : "%+.2g of a tolerance of %.2g",
-        shift, e->tolerance);
+        shift, tolerance);
     add(out, subject, "constant", old->constant, c->constant, constant, "%s",
         say_constant(old->constant, c->constant, shown));
 }

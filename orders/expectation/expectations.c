@@ -1,15 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The expected orders of a program, and the verdicts on them. */
+/* Expected orders, as options, study files and scenes state them, and the verdicts on them. */
 #include "orders/orders.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/words.h"
 
-/* ---- the text ---- */
+/* ---- an order ---- */
 
-enum { MOST = 2000 }; /* more than two for each column of a table */
+double br_expectation_low(const struct br_expectation *e)
+{
+    return e->order - e->tolerance;
+}
+
+double br_expectation_high(const struct br_expectation *e)
+{
+    return e->tolerance == 0 ? INFINITY : fmax(e->order, e->highest) + e->tolerance;
+}
+
+char *br_expectation_text(const struct br_expectation *e, char text[BR_EXPECTATION_TEXT])
+{
+    enum { SIZE = BR_EXPECTATION_TEXT };
+    char order[64];
+    snprintf(text, SIZE, "%s%s%s", e->exponential ? "exponential " : "",
+             e->tolerance == 0 ? ">= " : "",
+             br_range_text(e->order, e->highest, order, sizeof order));
+    if (e->tolerance != 0)
+        br_append(text, SIZE, " +- %g", e->tolerance);
+    return e->down_to > 0 ? br_append(text, SIZE, " down to %g", e->down_to) : text;
+}
 
 static enum br_status refuse(const char *at, const char *expected, struct br_error *err)
 {
@@ -25,54 +47,132 @@ static bool takes(const char **at, const char *word)
     return behind;
 }
 
-/* Whether a number above 0 is next. */
-static bool take_number(const char **at, double *value)
+/* Whether a number between these is next. */
+static bool take_number(const char **at, double low, double high, double *value)
 {
     const char *end = br_read_number(*at, value);
-    if (!end || !(*value > 0))
+    if (!end || !(*value > low && *value < high))
         return false;
     *at = br_skip_word(end, "");
     return true;
 }
 
-/* "h 2 +- 0.1 down to 1e-9", "h exponential 8 +- 0.5" */
-static enum br_status take_order(const char **at, struct br_order_expectation *e,
-                                 struct br_error *err)
+enum br_status br_expectation_check(const struct br_expectation *e, struct br_error *err)
 {
-    e->axis = BR_AXES;
-    for (int axis = 0; axis < BR_AXES && e->axis == BR_AXES; axis++)
-        if (takes(at, br_axis_letters[axis]))
-            e->axis = (enum br_axis)axis;
-    if (e->axis == BR_AXES)
-        return refuse(*at, "h or k", err);
-    e->exponential = takes(at, "exponential");
-    if (!take_number(at, &e->order) || (e->exponential && !(e->order > 1)))
-        return refuse(*at, e->exponential ? "a factor above 1" : "an order above 0", err);
-    if (!takes(at, "+-") && !takes(at, "\u00b1"))
+    if (e->order > 0 && e->tolerance >= 0 && e->tolerance < e->order && isfinite(e->order) &&
+        e->down_to >= 0)
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "found order %g +- %g down to %g, expected an order above 0, a tolerance above "
+                   "0 (0: the order is the least) and below it, since a band with the order 0 "
+                   "accepts errors that do not fall, and an error of at least 0",
+                   e->order, e->tolerance, e->down_to);
+}
+
+/* "2 to 4 +- 0.1", "2", ">= 1.8" */
+static enum br_status take_band(const char **at, struct br_expectation *e, struct br_error *err)
+{
+    if (takes(at, "<=") || takes(at, "\u2264"))
+        return refuse(*at, "'>=' or a band: errors that do not fall have an order below any limit",
+                      err);
+    const bool least = takes(at, ">=") || takes(at, "\u2265") || takes(at, "at least");
+    if (!take_number(at, e->exponential ? 1 : 0, INFINITY, &e->order))
+        return refuse(
+            *at, e->exponential ? "a factor above 1" : "an order above 0, perhaps behind h or k",
+            err);
+    if (least)
+        return BR_OK;
+    if (takes(at, "to") && !take_number(at, e->order, INFINITY, &e->highest))
+        return refuse(*at, "an order above the first", err);
+    e->tolerance = e->order / 10;
+    const bool given = takes(at, "+-") || takes(at, "\u00b1");
+    if (!given && **at == '+')
         return refuse(*at, "'+-'", err);
-    if (!take_number(at, &e->tolerance) || !(e->tolerance < e->order))
-        return refuse(*at, "a tolerance above 0 and below the order", err);
-    if (takes(at, "down to") && !take_number(at, &e->down_to))
-        return refuse(*at, "an error above 0", err);
+    if (given && !take_number(at, 0, e->order, &e->tolerance))
+        return refuse(*at,
+                      "a tolerance above 0 and below the order, since the order 0 is that of "
+                      "errors that do not fall",
+                      err);
     return BR_OK;
 }
 
+static enum br_status take_constant(const char **at, const char *unit, struct br_expectation *e,
+                                    struct br_error *err)
+{
+    const char *next = *at;
+    const bool comma = takes(&next, ","), most = comma && takes(&next, "at most");
+    if (!most && !(comma && takes(&next, "constant")))
+        return BR_OK;
+    *at = next;
+    if (e->tolerance == 0)
+        return refuse(*at, "no constant of a least order: it belongs to one order", err);
+    if (!most && !(take_number(at, 0, INFINITY, &e->floor) && takes(at, "to")))
+        return refuse(*at, "a range of the constant, 'constant 2e-4 to 3e-4'", err);
+    if (!take_number(at, most ? 0 : e->floor, INFINITY, &e->ceiling))
+        return refuse(*at, "a constant above 0, and above the first", err);
+    if (!takes(at, unit))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found '%.30s' behind the constant, expected its unit, %s", *at, unit);
+    return BR_OK;
+}
+
+enum br_status br_expectation_read(const char **at, const char *unit, enum br_axis *axis,
+                                   struct br_expectation *e, struct br_error *err)
+{
+    *at = br_skip_word(*at, "");
+    *axis = BR_AXES;
+    e->floor = e->ceiling = NAN;
+    for (int a = 0; a < BR_AXES && *axis == BR_AXES; a++)
+        if (takes(at, br_axis_letters[a]))
+            *axis = (enum br_axis)a;
+    e->exponential = takes(at, "exponential");
+    if (take_band(at, e, err))
+        return err->status;
+    if (takes(at, "down to") && !take_number(at, 0, INFINITY, &e->down_to))
+        return refuse(*at, "an error above 0", err);
+    return take_constant(at, unit, e, err);
+}
+
+/* ---- a list ---- */
+
+enum { MOST = 2000 }; /* more than two for each column of a table */
+
+/* Whether an order stands there, and nothing else before the next one. */
+static bool is_order(const char *at)
+{
+    struct br_error ignored = {0};
+    struct br_expectation e = {0};
+    enum br_axis axis;
+    return !br_expectation_read(&at, "", &axis, &e, &ignored) && (!*at || strchr(",;", *at));
+}
+
+/* Takes "l2:", or "l2 =", or "l2" before ">= 1.8", or nothing where an order stands. In quotes a
+ * name may have all of these; quotes may be a part of a name, too. */
 static enum br_status take_name(const char **at, char name[64], struct br_error *err)
 {
     const char *name_at = *at, *quoted = br_list_quoted(&name_at);
-    const char *colon = quoted ? br_skip_word(quoted, "") : NULL;
+    const char *end = quoted ? br_skip_word(quoted, "") : NULL;
     size_t length = quoted ? (size_t)(quoted - 1 - name_at) : 0;
-    if (!colon || *colon != ':') { /* quotes may be a part of a name, too */
-        name_at = *at;
-        colon = strchr(*at, ':');
-        for (length = colon ? (size_t)(colon - *at) : 0;
-             length && strchr(" \t\n", (*at)[length - 1]);)
+    *name = '\0';
+    const bool is_word = **at && strchr("hk", **at) && isdigit((unsigned char)(*at)[1]); /* h1 */
+    if ((is_order(*at) && !is_word) || br_skip_word(*at, "<="))
+        return BR_OK;
+    if (!end || !*end || !strchr(":=><", *end)) {
+        name_at = end = *at;
+        while (*end && !strchr(":;", *end) && !(*end == '=' && is_order(end + 1)) &&
+               !br_skip_word(end, "<=") && !(strchr(">\xe2", *end) && is_order(end)))
+            end++;
+        if ((!*end || *end == ';') && strchr(*at, '=') && strchr(*at, '=') < end)
+            end = strchr(*at, '=');
+        for (length = (size_t)(end - *at); length && strchr(" \t\n", (*at)[length - 1]);)
             length--;
     }
-    if (length == 0 || length > 63)
-        return refuse(*at, length ? "a name of at most 63 bytes" : "an error's name and ':'", err);
+    if (!*end || *end == ';' || length == 0)
+        return refuse(*at, "an error's name and ':'", err);
+    if (length > 63)
+        return refuse(*at, "a name of at most 63 bytes", err);
     snprintf(name, 64, "%.*s", (int)length, name_at);
-    *at = br_skip_word(colon, ":");
+    *at = strchr(":=", *end) ? br_skip_word(end + 1, "") : end;
     return BR_OK;
 }
 
@@ -96,83 +196,115 @@ enum br_status br_expectations_read(const char *text, size_t line,
     const char *at = br_skip_word(text, "");
     if (!*at)
         return br_fail(err, BR_BAD_INPUT,
-                       "expected an error, h or k, its order and a tolerance, as in 'l2: h 2 +- "
-                       "0.1'; found nothing");
+                       "expected an order, as in 'l2: h 2 +- 0.1', 'L2 >= 1.8' or, of one error, "
+                       "'2'; found nothing");
     char name[64] = "";
-    for (bool goes_on = true, named = false; goes_on;) {
+    for (bool more = true, comma = false; more;) {
         struct br_order_expectation *e = &all[(*count)++];
-        if (named && at[strcspn(at, ",;:")] == ':')
-            return br_fail(err, BR_BAD_INPUT,
-                           "found '%.30s' behind a comma, expected h or k; another error begins "
-                           "after a semicolon, as in 'l2: h 2 +- 0.1; h1: h 1 +- 0.1'",
-                           at);
-        if ((!named && take_name(&at, name, err)) || take_order(&at, e, err))
+        const bool same = comma && (is_order(at) || !strpbrk(at, ":=<>"));
+        if ((!same && take_name(&at, name, err)) ||
+            br_expectation_read(&at, "", &e->axis, &e->band, err))
             return err->status;
         strcpy(e->quantity, name);
-        e->line = line;
+        e->band.line = line;
         for (const struct br_order_expectation *f = all; f < e; f++)
             if (f->axis == e->axis && strcmp(f->quantity, name) == 0)
-                return br_fail(err, BR_BAD_INPUT, "the order of %s in %s is given twice", name,
-                               br_axis_letters[e->axis]);
-        named = takes(&at, ",");
-        goes_on = named || takes(&at, ";");
+                return br_fail(err, BR_BAD_INPUT, "the order of %s%s%s is given twice",
+                               *name ? name : "the errors", e->axis < BR_AXES ? " in " : "",
+                               e->axis < BR_AXES ? br_axis_letters[e->axis] : "");
+        comma = takes(&at, ",");
+        more = comma || takes(&at, ";");
     }
     return *at ? refuse(at, "',' or ';' or the end", err) : BR_OK;
 }
 
-/* ---- verdicts ---- */
-
-static void expect(struct br_case *c, const struct br_order_expectation *e)
+enum br_status br_expectation_find(const struct br_numbers *n, struct br_order_expectation *e,
+                                   size_t *quantity, struct br_error *err)
 {
-    c->expected.order = e->order;
-    c->expected.tolerance = e->tolerance;
-    c->expected.line = e->line;
-    c->exponential = e->exponential;
-    c->down_to = e->down_to;
+    const size_t none = n->quantities;
+    size_t exact = none, similar = none, count = 0;
+    for (size_t i = none; i-- > 0;) {
+        const char *name = n->quantity[i].name;
+        exact = strcmp(name, e->quantity) == 0 ? i : exact;
+        if (!*e->quantity || strcasecmp(name, e->quantity) == 0)
+            similar = i, count++;
+    }
+    *quantity = exact < none ? exact : similar;
+    if (exact == none && count > 1)
+        return br_fail(err, BR_BAD_INPUT,
+                       "an order%s%s is expected, and %zu columns may be meant: expected the name "
+                       "of one before it, as in '%.60s: h 2 +- 0.1'",
+                       *e->quantity ? " of " : "", e->quantity, count, n->quantity[similar].name);
+    const bool in_h = n->column[BR_AXIS_SPACE], in_k = n->column[BR_AXIS_TIME];
+    if (e->axis == BR_AXES && in_h && in_k)
+        return br_fail(err, BR_BAD_INPUT,
+                       "an order is expected, and h and k are refined: expected one of the two "
+                       "before it, as in 'h 2 +- 0.1'");
+    e->axis = e->axis < BR_AXES ? e->axis : in_k ? BR_AXIS_TIME : BR_AXIS_SPACE;
+    return BR_OK;
 }
 
-/* Makes the case of an expectation on a line, with a copy of its points. */
-static enum br_status observe(const struct br_orders_line *line,
-                              const struct br_order_expectation *e, struct br_case *c,
-                              struct br_error *err)
+/* ---- verdicts ---- */
+
+/* Takes what is expected, and the points of a line as their source has them: what was left out on
+ * it is sought again, without errors that are expected not to fall. */
+static enum br_status observe(const struct br_orders *o, const struct br_quantity_orders *of,
+                              const struct br_orders_line *line, const struct br_expectation *e,
+                              struct br_case *c, struct br_error *err)
 {
     *c = line->observed;
-    expect(c, e);
+    c->expected = *e;
     c->point = br_allocate(c->points + 1, sizeof *c->point);
     if (!c->point)
         return br_no_memory(err, "the verdict");
     memcpy(c->point, line->observed.point, c->points * sizeof *c->point);
-    for (size_t i = 0; i < c->points; i++)
-        if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
-            c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
+    for (size_t i = 0; i < c->points; i++) {
+        struct br_point *p = &c->point[i];
+        const enum br_flag out = o->numbers->row[line->row[i]].out[of->quantity];
+        if (p->flag != BR_FLAG_FAILED && p->error > 0)
+            p->flag = out ? out : p->error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
+    }
     return br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
 }
 
-/* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
-static enum br_status find_verdict(const struct br_orders *o, const struct br_order_expectation *e,
-                                   const char *path, struct br_case *c, struct br_error *err)
+/* A further case of a check; NULL: no memory. */
+static struct br_case *add_case(struct br_check *check)
 {
-    const struct br_quantity_orders *of = NULL;
-    for (size_t i = 0; i < o->count && !of; i++)
-        if (strcmp(o->numbers->quantity[i].name, e->quantity) == 0)
-            of = &o->of[i];
-    const struct br_orders_line *line = of ? br_orders_finest(of, e->axis) : NULL;
+    const size_t count = check->count;
+    if ((count & (count - 1)) == 0) { /* it is full */
+        struct br_case *more = br_allocate(count ? 2 * count : 1, sizeof *more);
+        if (!more)
+            return NULL;
+        if (count)
+            memcpy(more, check->cases, count * sizeof *more);
+        free(check->cases);
+        check->cases = more;
+    }
+    return &check->cases[check->count++];
+}
+
+/* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
+enum br_status br_orders_decide(const struct br_orders *o, const struct br_quantity_orders *of,
+                                const struct br_order_expectation *e, struct br_check *check,
+                                struct br_error *err)
+{
+    const struct br_orders_line *line = br_orders_finest(of, e->axis);
+    const struct br_orders_answer *answer = &of->answer[e->axis];
     const bool joint =
-        of && (br_joint_describes(&of->joint) || (!line && of->flag)); /* of a grid without lines */
-    if (!of)
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s: an order of '%s' is expected, and there is no such "
-                       "column",
-                       path, e->quantity);
+        br_joint_describes(&of->joint) || (!line && of->flag); /* of a grid without lines */
     if (!line && !joint)
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of %s in %s is expected, and there are no three sizes of one "
                        "line",
-                       path, e->quantity, br_axis_letters[e->axis]);
-    if (joint ? br_orders_joint_case(o, of, e->axis, c, err) : observe(line, e, c, err))
+                       check->path, o->numbers->quantity[of->quantity].name,
+                       br_axis_letters[e->axis]);
+    struct br_case *c = add_case(check);
+    if (!c)
+        return br_no_memory(err, "the verdicts");
+    if (joint ? br_orders_joint_case(o, of, e->axis, c, err)
+              : observe(o, of, line, &e->band, c, err))
         return err->status;
-    const struct br_orders_answer *answer = &of->answer[e->axis];
-    expect(c, e);
+    c->expected = e->band;
     if (!joint && answer->open)
         br_case_take_order(c, answer->order, NAN);
     c->open = answer->open;
@@ -185,12 +317,18 @@ static enum br_status find_verdict(const struct br_orders *o, const struct br_or
 enum br_status br_orders_check(const struct br_orders *o, const struct br_order_expectation *e,
                                size_t count, struct br_check *check, struct br_error *err)
 {
-    check->cases = br_allocate(count + 1, sizeof *check->cases);
-    check->count = 0;
-    if (!check->cases)
-        return br_no_memory(err, "the verdicts");
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < count && !status; i++)
-        status = find_verdict(o, &e[i], check->path, &check->cases[check->count++], err);
-    return status;
+    for (size_t i = 0; i < count; i++) {
+        struct br_order_expectation found = e[i];
+        struct br_error inner = {0};
+        size_t quantity;
+        if (br_expectation_find(o->numbers, &found, &quantity, &inner))
+            return br_fail(err, inner.status, "%s: %s", check->path, inner.message);
+        if (quantity == o->count)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: an order of '%s' is expected, and there is no such column",
+                           check->path, found.quantity);
+        if (br_orders_decide(o, &o->of[quantity], &found, check, err))
+            return err->status;
+    }
+    return BR_OK;
 }

@@ -59,10 +59,15 @@ static void list_left_out(struct br_case *c)
     }
 }
 
-/* Of the expected order; where none is expected, of the observed one. */
+/* Whether constants are those of the observed order, since none is expected, or a least one. */
+static bool of_observed(const struct br_case *c)
+{
+    return isnan(c->expected.order) || c->expected.tolerance == 0;
+}
+
 static void find_constants(struct br_case *c)
 {
-    const double order = isnan(c->expected.order) ? c->order.value : c->expected.order;
+    const double order = of_observed(c) ? c->order.value : c->expected.order;
     size_t finest = 0;
     c->constant = NAN;
     for (size_t i = c->points; i-- > 0;) {
@@ -175,7 +180,7 @@ static double enough(const struct br_case *c)
 {
     const double expected = c->expected.order;
     const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
-    return ceil(100 * off + 1e-9) / 100;
+    return c->expected.tolerance > 0 ? ceil(100 * off + 1e-9) / 100 : INFINITY;
 }
 
 /* Where the orders from size to size go. */
@@ -192,10 +197,10 @@ static struct trend trend_of(const struct br_case *c)
     struct trend t;
     end_rates(c, &t.first, &t.last);
     const double first = c->of_grid ? NAN : t.first, last = c->of_grid ? NAN : t.last;
-    const double high = fmax(e->order, e->highest);
+    const double high = e->tolerance > 0 ? fmax(e->order, e->highest) : INFINITY;
     const double off = fabs(last - fmin(fmax(last, e->order), high));
     const double before = fabs(first - fmin(fmax(first, e->order), high));
-    t.outside = c->order.high < e->order - e->tolerance || c->order.low > high + e->tolerance;
+    t.outside = c->order.high < br_expectation_low(e) || c->order.low > br_expectation_high(e);
     t.nearer = off < 0.75 * before;
     t.stays = !t.nearer && off > e->tolerance && off >= (t.outside ? 0.9 : 1) * before;
     return t;
@@ -225,7 +230,7 @@ static void advise(struct br_case *c)
                   t.last, t.first);
     else if (!(c->of_grid && t.outside)) {
         br_append(c->reason, sizeof c->reason, "; %s",
-                  c->order.high - c->order.low > 2 * e->tolerance
+                  c->order.high - c->order.low > br_expectation_high(e) - br_expectation_low(e)
                       ? "the interval is wider than the band: finer grids would narrow it"
                       : "finer grids would decide");
         if (enough(c) < e->order / 4) /* a wider one would accept any order */
@@ -260,7 +265,7 @@ static const struct br_point *first_beyond(const struct br_case *c)
     while (last > c->point && !last->used)
         last--;
     for (const struct br_point *p = c->point + c->points; p-- > last + 1;)
-        if (p->lost && !(p->error <= c->down_to))
+        if (p->lost && !(p->error <= c->expected.down_to))
             first = p;
     return first;
 }
@@ -295,7 +300,8 @@ static const struct br_point *turning_point(const struct br_case *c)
     }
     const struct br_point *last = c->point + c->points - 1;
     const bool clear = c->points > LEAST && last->error > deep * c->point[0].error &&
-                       !(last->error <= c->down_to) && c->point[1].error < c->point[0].error;
+                       !(last->error <= c->expected.down_to) &&
+                       c->point[1].error < c->point[0].error;
     return clear ? last - 2 : NULL;
 }
 
@@ -321,7 +327,7 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
              first->error);
     if (below)
         br_append(c->reason, sizeof c->reason, ": finer grids would show whether terms cancel");
-    else if (!(c->duration > 0))
+    else if (c->may_miss)
         br_append(c->reason, sizeof c->reason,
                   ": if that is round-off, or the reference's own error, expect the order 'down to "
                   "%.0e'",
@@ -332,47 +338,26 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
                   "grids are larger");
 }
 
-/* Elements or steps of size i; the last ones of neighbours that are compared are `against`. */
-static double count_at(const struct br_case *c, bool of_time, size_t i)
-{
-    const struct br_resolution *at =
-        i < c->points ? &c->point[i].at : &c->point[c->points - 1].against;
-    return of_time ? (double)at->steps : (double)at->n;
-}
-
-/* The sizes of the case, and one more: finer ones, or coarser ones where the fine ones are lost. */
-static void name_axis(struct br_case *c, bool of_time, bool lost)
-{
-    const size_t count = c->points + (c->kind != BR_VERIFY_JOINT);
-    br_append(c->reason, sizeof c->reason, of_time ? " k: " : " n: ");
-    for (size_t i = 0; i <= count; i++) {
-        const double a = count_at(c, of_time, lost ? 0 : count - 1),
-                     b = count_at(c, of_time, lost ? 1 : count - 2);
-        const bool more = i == (lost ? 0 : count);
-        const double size = more ? floor(a * a / b) : count_at(c, of_time, lost ? i - 1 : i);
-        br_append(c->reason, sizeof c->reason, of_time ? "%s%.6g" : "%s%.15g", i ? ", " : "",
-                  of_time ? c->duration / size : size);
-    }
-    br_append(c->reason, sizeof c->reason, of_time ? " s" : "");
-}
-
-/* Says what would settle the verdict: for a scene as a line of its part `verify`. */
-static void name_sizes(struct br_case *c)
+/* Says which row would settle the verdict; a source whose numbers are all needed says more itself.
+ */
+static void name_row(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
-    if (!(c->duration > 0) && !c->open && !trend_of(c).stays)
+    if (c->may_miss && !c->open && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
                   lost                  ? c->point[0].label
                   : last->z_against > 0 ? "all others" /* the finest value has no difference */
                                         : last->label);
-    if (!(c->duration > 0) || c->points < 2)
-        return;
-    br_append(c->reason, sizeof c->reason, "; expect it of");
-    if (c->kind != BR_VERIFY_TIME)
-        name_axis(c, false, lost);
-    if (c->kind != BR_VERIFY_SPACE)
-        name_axis(c, true, lost);
+}
+
+/* "1.9 to 2.1", "at least 1.8" */
+static const char *band_text(const struct br_expectation *e, char text[64])
+{
+    const double high = br_expectation_high(e);
+    snprintf(text, 64, isfinite(high) ? "%.4g to %.4g" : "at least %.4g", br_expectation_low(e),
+             high);
+    return text;
 }
 
 static void straddle(struct br_case *c, const char *order, double low, double high)
@@ -410,18 +395,17 @@ static bool falls_by_two(const struct br_case *c, double low, double high)
 /* Exponential convergence has no order, and an order is no such convergence. */
 static void decide_factor(struct br_case *c)
 {
-    const double low = c->expected.order - c->expected.tolerance,
-                 high = c->expected.order + c->expected.tolerance;
+    const double low = br_expectation_low(&c->expected), high = br_expectation_high(&c->expected);
     const struct br_estimate *f = &c->factor;
-    char text[64];
+    char text[64], band[64];
     c->margin = fmin(f->low - low, high - f->high);
     if (f->low >= low && f->high <= high)
         conclude(c, BR_PASS, "%s", "");
     else if (isfinite(f->value))
         conclude(c, f->high < low || f->low > high ? BR_FAIL : BR_INCONCLUSIVE,
-                 "one more of 1/%s divides the errors by %s, expected %.4g to %.4g",
-                 c->kind == BR_VERIFY_TIME ? "k" : "h", br_order_text(f, text, sizeof text), low,
-                 high);
+                 "one more of 1/%s divides the errors by %s, expected %s",
+                 c->kind == BR_VERIFY_TIME ? "k" : "h", br_order_text(f, text, sizeof text),
+                 band_text(&c->expected, band));
     else
         conclude(c, br_order_determined(&c->order) ? BR_FAIL : BR_INCONCLUSIVE,
                  "the errors do not fall exponentially; their order is %s",
@@ -445,8 +429,8 @@ static void note_two(struct br_case *c)
 static void decide_order(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
-    const double low = e->order - e->tolerance, high = fmax(e->order, e->highest) + e->tolerance;
-    char text[64];
+    const double low = br_expectation_low(e), high = br_expectation_high(e);
+    char text[64], band[64];
     br_order_text(&c->order, text, sizeof text);
     c->margin = fmin(c->order.low - low, high - c->order.high);
     const bool within = c->order.low >= low && c->order.high <= high;
@@ -455,8 +439,8 @@ static void decide_order(struct br_case *c)
         if (!within)
             note_two(c);
     } else if (c->high99 < low || c->low99 > high) {
-        conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
-                 c->high99 < low ? "below" : "above", low, high);
+        conclude(c, BR_FAIL, "the order, %s, lies %s the band, %s", text,
+                 c->high99 < low ? "below" : "above", band_text(e, band));
         advise(c);
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
@@ -483,8 +467,8 @@ static void decide_constant(struct br_case *c)
     const enum br_verdict so_far = c->verdict;
     char before[sizeof c->reason];
     snprintf(before, sizeof before, "%s", c->reason);
-    conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
-             high ? "above its upper limit" : "below its lower limit",
+    conclude(c, BR_FAIL, "the constant, %.4g%s%s, is %s, %.4g", c->constant, *c->unit ? " " : "",
+             c->unit, high ? "above its upper limit" : "below its lower limit",
              high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
         br_append(c->reason, sizeof c->reason, "; and %s", before);
@@ -507,7 +491,7 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     const bool known = !first_failed(c) && c->used >= least;
     const enum br_status status = known ? find_order(c, err) : BR_OK;
     choose_points(c);
-    if (isnan(c->expected.order))
+    if (of_observed(c))
         find_constants(c);
     list_left_out(c);
     if (isfinite(c->factor.value)) {
@@ -570,11 +554,11 @@ void br_case_decide(struct br_case *c)
     } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
         decide_too_few(c);
     else {
-        (c->exponential ? decide_factor : decide_order)(c);
+        (c->expected.exponential ? decide_factor : decide_order)(c);
         decide_constant(c);
     }
     if (c->verdict == BR_INCONCLUSIVE)
-        name_sizes(c);
+        name_row(c);
 }
 
 /* ---- all of a check ---- */

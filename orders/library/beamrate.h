@@ -178,7 +178,8 @@ enum beamrate_verdict {
 struct beamrate_case {
     const char *study;          /* "space" or "time" */
     const char *measure;        /* "error", "value", or the column */
-    double expected, tolerance; /* the interval must lie within expected -+ tolerance */
+    double expected, tolerance; /* the interval must lie within expected -+ tolerance; tolerance
+                                   0: above expected */
     struct beamrate_estimate order;
     double constant;     /* C of e = C h^expected, or k^expected; NaN: none */
     double margin;       /* from the interval to the nearer end of the band; < 0: it is outside */
@@ -198,7 +199,7 @@ enum beamrate_status beamrate_check_case(const struct beamrate_check *check, siz
 /* The expectation of an order. */
 struct beamrate_expectation {
     enum beamrate_axis axis;
-    double order, tolerance; /* 0 < tolerance < order */
+    double order, tolerance; /* 0 <= tolerance < order; 0: the order is the least */
     double down_to;          /* the errors are expected to stop falling there; 0: nowhere */
 };
 
@@ -218,6 +219,12 @@ enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **chec
                                                     size_t quantity,
                                                     const struct beamrate_expectation *expectation,
                                                     size_t count, struct beamrate_error *err);
+
+/* The same of a text as --expect has it: "L2: h 2 +- 0.1, k 1; H1 >= 0.9", or "2" of one column.
+ * Names are found without regard to case. */
+enum beamrate_status beamrate_orders_expect(struct beamrate_check **check,
+                                            const struct beamrate_orders *orders, const char *text,
+                                            struct beamrate_error *err);
 
 #ifdef __cplusplus
 }

@@ -173,10 +173,13 @@ class Check(_Handle):
 
     def __init__(self, orders, quantity, expected):
         super().__init__()
-        expected = (_Expectation * len(expected))(*(
-            _Expectation(_axis(axis), *numbers) for axis, *numbers in expected))
-        _call("orders_check_quantity", byref(self.handle), orders, c_size_t(quantity), expected,
-              c_size_t(len(expected)))
+        if expected and all(isinstance(one, str) for one in expected):
+            _call("orders_expect", byref(self.handle), orders, _text("expected", "; ".join(expected)))
+        else:
+            structs = (_Expectation * len(expected))(*(
+                _Expectation(_axis(axis), *numbers) for axis, *numbers in expected))
+            _call("orders_check_quantity", byref(self.handle), orders, c_size_t(quantity), structs,
+                  c_size_t(len(structs)))
         self.cases = [self._get("check_case", _Case, c_size_t(i))
                       for i in range(_lib.beamrate_check_count(self))]
         for case in self.cases:
@@ -336,20 +339,24 @@ class Orders(_Handle):
         return self._get("orders_fit", _Fit)
 
     def check(self, *expected, quantity=None):
-        """Verdicts on expectations: (axis, order, tolerance) or (axis, order, tolerance, down_to); of
-        the quantity of that name, else of the first."""
+        """Verdicts on expectations: (axis, order, tolerance) or (axis, order, tolerance, down_to), where
+        tolerance 0 expects at least that order; of the quantity of that name, else of the first. Or on
+        texts as of --expect: "L2: h 2 +- 0.1", "H1 >= 0.9"."""
         index = 0 if quantity is None else self.quantities.index(self[quantity])
         return Check(self, index, expected)
 
     def assert_order(self, order, tolerance=0.1, quantity=None, axis=None, down_to=0):
         """For tests: AssertionError with the reason unless the verdict is PASS, which needs the whole
-        95 % interval within order -+ tolerance. Of all quantities, or of one; axis: "h" or "k"."""
+        95 % interval within order -+ tolerance; tolerance 0: above order. Of all quantities, or of one;
+        axis: "h" or "k". Or a text, as of check: ">= 1.8", "L2: h 2; H1 >= 0.9"."""
         __tracebackhide__ = True  # of pytest
-        failures = []
-        for q in self.quantities if quantity is None else [self[quantity]]:
-            check = self.check((q._axis(axis), order, tolerance, down_to), quantity=q.name)
-            failures += [f"{q.name}: {case.verdict}: {case.reason}" for case in check.cases
-                         if case.verdict != "PASS"]
+        if isinstance(order, str):
+            checks = [self.check(order)]
+        else:
+            checks = [self.check((q._axis(axis), order, tolerance, down_to), quantity=q.name)
+                      for q in (self.quantities if quantity is None else [self[quantity]])]
+        failures = [f"{case.measure}: {case.verdict}: {case.reason}" for check in checks
+                    for case in check.cases if case.verdict != "PASS"]
         if failures:
             raise AssertionError("\n".join(failures))
 

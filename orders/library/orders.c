@@ -238,7 +238,7 @@ enum beamrate_status beamrate_orders_fit(const struct beamrate_orders *orders,
 struct beamrate_check {
     enum br_handle kind;
     struct br_check check;
-    char *measure; /* the name of their column; owned */
+    struct br_store names; /* of the cases */
 };
 
 void beamrate_check_free(struct beamrate_check *check)
@@ -246,7 +246,7 @@ void beamrate_check_free(struct beamrate_check *check)
     if (!br_handle_is(check, BR_HANDLE_CHECK))
         return;
     br_check_clear(&check->check);
-    free(check->measure);
+    br_store_clear(&check->names);
     free(check);
 }
 
@@ -296,16 +296,34 @@ static enum br_status copy_expectations(const struct beamrate_expectation *from,
             return br_fail(err, BR_BAD_INPUT,
                            "expectation %zu: axis: found %d, expected 0 (space) or 1 (time)", i,
                            (int)e->axis);
-        if (!(e->order > 0 && e->tolerance > 0 && e->tolerance < e->order && isfinite(e->order) &&
-              e->down_to >= 0))
-            return br_fail(err, BR_BAD_INPUT,
-                           "expectation %zu: found order %g +- %g down to %g, expected an order "
-                           "above 0, a tolerance above 0 and below it, and an error of at least 0",
-                           i, e->order, e->tolerance, e->down_to);
         (*to)[i] = (struct br_order_expectation){.axis = (enum br_axis)e->axis,
-                                                 .order = e->order,
-                                                 .tolerance = e->tolerance,
-                                                 .down_to = e->down_to};
+                                                 .band = {.order = e->order,
+                                                          .tolerance = e->tolerance,
+                                                          .floor = NAN,
+                                                          .ceiling = NAN,
+                                                          .down_to = e->down_to}};
+        struct br_error inner;
+        if (br_expectation_check(&(*to)[i].band, &inner))
+            return br_fail(err, inner.status, "expectation %zu: %s", i, inner.message);
+    }
+    return BR_OK;
+}
+
+/* Refuses orders of a mesh whose dimension is assumed; gives the cases names that outlive the
+ * orders. */
+static enum br_status finish_check(struct beamrate_check *made, const struct br_numbers *numbers,
+                                   struct br_error *err)
+{
+    for (size_t i = 0; i < made->check.count; i++) {
+        struct br_case *c = &made->check.cases[i];
+        c->unit = "";
+        if (numbers->unsettled)
+            return br_fail(err, BR_BAD_INPUT, "an order of %.200s in %s is expected, and %s",
+                           c->measure, c->kind == BR_VERIFY_SPACE ? "h" : "k", numbers->unsettled);
+        char *name = br_store_take(&made->names, strlen(c->measure) + 1, 1);
+        if (!name)
+            return br_no_memory(err, "the verdicts");
+        c->measure = strcpy(name, c->measure);
     }
     return BR_OK;
 }
@@ -315,37 +333,36 @@ static enum br_status check_orders(struct beamrate_check *made,
                                    const struct beamrate_expectation *from, size_t count,
                                    struct br_error *err)
 {
-    struct br_check *check = &made->check;
     struct br_order_expectation *e;
     if (br_handle_check(orders, err))
         return err->status;
     if (quantity >= orders->orders.count)
         return br_fail(err, BR_BAD_INPUT, "quantity: found %zu, expected less than %zu", quantity,
                        orders->orders.count);
-    if (copy_expectations(from, count, &e, err))
-        return free(e), err->status;
-    /* One column: a name that is longer than an expectation's is no other one's. */
-    struct br_orders alone = orders->orders;
-    struct br_numbers numbers = orders->numbers;
-    alone.numbers = &numbers;
-    alone.of += quantity;
-    alone.count = 1;
-    numbers.quantity += quantity;
-    made->measure = strdup(numbers.quantity->name); /* outlives the orders */
-    check->path = name_of_numbers;
-    for (size_t i = 0; i < count; i++)
-        snprintf(e[i].quantity, sizeof e->quantity, "%s", numbers.quantity->name);
-    enum br_status status = made->measure ? BR_OK : br_no_memory(err, "the verdicts");
+    enum br_status status = copy_expectations(from, count, &e, err);
+    made->check.path = name_of_numbers;
     for (size_t i = 0; i < count && !status; i++)
-        if (numbers.unsettled)
-            status = br_fail(err, BR_BAD_INPUT, "an order of %.200s in %s is expected, and %s",
-                             made->measure, br_axis_letters[e[i].axis], numbers.unsettled);
-    if (!status)
-        status = br_orders_check(&alone, e, count, check, err);
-    for (size_t i = 0; i < check->count && !status; i++)
-        check->cases[i].measure = made->measure;
+        status = br_orders_decide(&orders->orders, &orders->orders.of[quantity], &e[i],
+                                  &made->check, err);
     free(e);
-    return status;
+    return status ? status : finish_check(made, &orders->numbers, err);
+}
+
+static enum br_status check_text(struct beamrate_check *made, const struct beamrate_orders *orders,
+                                 const char *text, struct br_error *err)
+{
+    struct br_order_expectation *e = NULL;
+    size_t count = 0;
+    if (br_handle_check(orders, err))
+        return err->status;
+    if (!text)
+        return br_fail(err, BR_BAD_INPUT, "expectations: found NULL, expected a text");
+    made->check.path = name_of_numbers;
+    enum br_status status = br_expectations_read(text, 0, &e, &count, err);
+    if (!status)
+        status = br_orders_check(&orders->orders, e, count, &made->check, err);
+    free(e);
+    return status ? status : finish_check(made, &orders->numbers, err);
 }
 
 enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
@@ -364,4 +381,12 @@ enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **chec
 {
     MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
                 check_orders(*check, orders, quantity, expectation, count, &call.err));
+}
+
+enum beamrate_status beamrate_orders_expect(struct beamrate_check **check,
+                                            const struct beamrate_orders *orders, const char *text,
+                                            struct beamrate_error *err)
+{
+    MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
+                check_text(*check, orders, text, &call.err));
 }

@@ -218,14 +218,15 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
         advise(o, r->fitted, axis, l.flag);
 }
 
-/* Adds the differences of a study along an axis to the numbers. */
-static enum br_status add_differences(const struct br_study *s, enum br_part part,
+/* Gives the numbers the differences of a study along an axis; NULL: there are none. */
+static enum br_status set_differences(const struct br_study *s, enum br_part part,
                                       enum br_axis axis, struct br_numbers *n, struct br_error *err)
 {
     struct br_differences *d = &n->quantity->differences[axis];
-    d->points = br_axis_count(s, (int)axis);
-    d->point = br_allocate(d->points, sizeof *d->point);
-    if (!d->point)
+    free(d->point);
+    *d = (struct br_differences){.points = s ? br_axis_count(s, (int)axis) : 0};
+    d->point = s ? br_allocate(d->points, sizeof *d->point) : NULL;
+    if (s && !d->point)
         return br_no_memory(err, "the orders");
     for (size_t i = 0; i < d->points; i++) {
         const struct br_cell *c = &s->cell[br_axis_cell(s, (int)axis, i, 0)];
@@ -239,25 +240,31 @@ static enum br_status add_differences(const struct br_study *s, enum br_part par
     return BR_OK;
 }
 
-static enum br_status ask(const struct br_report *r, enum br_part part, enum br_axis axis,
+static enum br_status find_orders(struct br_report *r, enum br_part part, struct br_error *err)
+{
+    struct br_numbers *n = &r->numbers[part];
+    enum br_status status = br_fit_numbers(r->fitted, part, n, err);
+    n->fitted = &r->fits[part].joint;
+    for (enum br_axis a = 0; a < BR_AXES && !status; a++) {
+        n->quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
+        status = set_differences(r->compared[a], part, a, n, err);
+    }
+    return status ? status : br_orders_find(n, 0, &r->orders[part], err);
+}
+
+static enum br_status ask(struct br_report *r, enum br_part part, enum br_axis axis,
                           struct br_observed_order *o, struct br_error *err)
 {
-    struct br_numbers numbers;
-    struct br_orders orders = {0};
-    enum br_status status = br_fit_numbers(r->fitted, part, &numbers, err);
-    numbers.fitted = &r->fits[part].joint;
-    for (enum br_axis a = 0; a < BR_AXES && !status; a++) {
-        if (a == axis || r->compared[a])
-            numbers.quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
-        if (r->compared[a])
-            status = add_differences(r->compared[a], part, a, &numbers, err);
-    }
+    struct br_orders *orders = &r->orders[part];
+    enum br_status status = BR_OK;
+    if (!orders->of)
+        status = find_orders(r, part, err);
+    else if (!set_differences(r->compared[axis], part, axis, &r->numbers[part], err))
+        status = br_orders_renew(orders, axis, err);
+    else
+        status = err->status;
     if (!status)
-        status = br_orders_find(&numbers, 0, &orders, err);
-    if (!status)
-        take_answer(o, r, &orders, axis);
-    br_orders_clear(&orders);
-    br_numbers_clear(&numbers);
+        take_answer(o, r, orders, axis);
     return status;
 }
 
@@ -319,6 +326,10 @@ void br_report_clear(struct br_report *r)
 {
     free(r->printed);
     r->printed = NULL;
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        br_orders_clear(&r->orders[part]);
+        br_numbers_clear(&r->numbers[part]);
+    }
 }
 
 double br_report_ratio(const struct br_report *r, size_t cell)

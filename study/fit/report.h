@@ -40,13 +40,15 @@ struct br_report {
                               Borrowed */
     struct br_fits fits[BR_PARTS];
     struct br_observed_order observed[BR_PARTS][BR_AXES];
+    struct br_numbers numbers[BR_PARTS]; /* of `fitted`, with the differences: they are searched */
+    struct br_orders orders[BR_PARTS];   /* once, those of an axis each time; owned */
     struct br_triangle triangle[BR_MOST_TRIANGLES];
     size_t triangles;
     double wall_seconds; /* of the whole study */
 };
 
-/* Sets the orders in h, or in k, from those errors and from the differences; after the fits. Fails
- * with BR_NO_MEMORY. */
+/* Sets the orders in h, or in k, from those errors and from the differences; after the fits. Until
+ * the report is cleared, only the differences of that axis may change. Fails with BR_NO_MEMORY. */
 enum br_status br_report_observe_orders(struct br_report *report, enum br_axis axis,
                                         struct br_error *err);
 

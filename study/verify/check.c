@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/verify/check.h"
 
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/words.h"
 #include "solver/scene.h"
 #include "study/grid/sweep.h"
-
-#include <math.h>
-#include <stdio.h>
 
 /* The studies of one kind of one check: over space and time a chain of norms for each pair of
  * neighbours, jointly one for the whole path. */
@@ -122,6 +124,20 @@ static void clear_plan(struct plan *plan)
 
 /* ---- the results ---- */
 
+/* What is refined; of both, the order is one in k. */
+static enum br_axis axis_of(enum br_verify_kind kind)
+{
+    return kind == BR_VERIFY_SPACE ? BR_AXIS_SPACE : BR_AXIS_TIME;
+}
+
+/* What cell i is compared with. */
+static struct br_resolution against(const struct section *s, size_t i)
+{
+    const struct br_verify_study *v = study_of(s);
+    return s->kind == BR_VERIFY_JOINT ? (struct br_resolution){0, 0}
+                                      : (struct br_resolution){v->n[i + 1], v->steps[i + 1]};
+}
+
 /* h/L or k/T, the variable of a study's order; 0 for the continuous problem. */
 static double refinement(enum br_verify_kind kind, struct br_resolution at)
 {
@@ -129,60 +145,112 @@ static double refinement(enum br_verify_kind kind, struct br_resolution at)
     return parts ? 1 / (double)parts : 0;
 }
 
-/* Point i of a section in one norm and component. */
-static struct br_point point_at(const struct plan *plan, const struct section *s, size_t i,
-                                const struct br_verify_expectation *e)
+/* Row i of a section's numbers. */
+static enum br_status fill_row(const struct plan *plan, const struct section *s, size_t i,
+                               struct br_numbers_row *row, struct br_error *err)
 {
-    const bool joint = s->kind == BR_VERIFY_JOINT;
-    const struct br_study *study = study_in(plan, s, joint ? 0 : i, norm_index(s, e->norm));
     const struct br_verify_study *v = study_of(s);
-    struct br_point p = {
-        .at = {v->n[i], v->steps[i]},
-        .error = NAN,
-        .flag = BR_FLAG_FAILED,
-    };
-    if (!joint)
-        p.against = study->reference;
-    p.z = refinement(s->kind, p.at);
-    p.z_against = refinement(s->kind, p.against);
-    const struct br_error *failure = &study->failure;
-    if (!failure->status) {
-        const struct br_cell *cell = &study->cell[joint ? i : 0];
-        failure = &cell->failure;
-        p.error = cell->error[e->part];
-        p.flag = cell->flag[e->part];
-        if (p.flag == BR_FLAG_NONE && study->reference_report.unstable)
-            p.flag = BR_FLAG_UNSTABLE; /* the march that it is compared with */
+    const bool joint = s->kind == BR_VERIFY_JOINT;
+    const enum br_axis axis = axis_of(s->kind);
+    const size_t head = joint ? 0 : i, at = joint ? i : 0;
+    const struct br_study *first = study_in(plan, s, head, 0);
+    const struct br_error *failure =
+        first->failure.status ? &first->failure : &first->cell[at].failure;
+    row->given[axis] =
+        axis == BR_AXIS_SPACE ? (double)v->n[i] : br_time_step(s->check->scene, v->steps[i]);
+    row->z[axis] = refinement(s->kind, (struct br_resolution){v->n[i], v->steps[i]});
+    row->against[axis] = refinement(s->kind, against(s, i));
+    for (size_t e = 0; e < v->expectations && !failure->status; e++) {
+        const struct br_verify_expectation *x = &v->expectation[e];
+        const struct br_study *study = study_in(plan, s, head, norm_index(s, x->norm));
+        row->number[e] = study->cell[at].error[x->part];
+        row->out[e] = study->cell[at].flag[x->part];
+        if (!row->out[e] && study->reference_report.unstable)
+            row->out[e] = BR_FLAG_UNSTABLE; /* the march that it is compared with */
     }
-    if (s->kind == BR_VERIFY_SPACE)
-        snprintf(p.label, sizeof p.label, "n = %zu", p.at.n);
-    else if (s->kind == BR_VERIFY_TIME)
-        snprintf(p.label, sizeof p.label, "k = T/%zu", p.at.steps);
-    else
-        snprintf(p.label, sizeof p.label, "(n = %zu, k = T/%zu)", p.at.n, p.at.steps);
-    snprintf(p.failure, sizeof p.failure, "%.255s", failure->status ? failure->message : "");
-    return p;
+    row->failure = failure->status ? strdup(failure->message) : NULL;
+    return failure->status && !row->failure ? br_no_memory(err, "the verdict") : BR_OK;
 }
 
-static enum br_status conclude_case(const struct plan *plan, const struct section *s,
-                                    const struct br_verify_expectation *e, struct br_case *c,
-                                    struct br_error *err)
+/* The errors of a section, a quantity for each expectation, over its one size. */
+static enum br_status fill_numbers(const struct plan *plan, const struct section *s,
+                                   struct br_numbers *n, struct br_error *err)
 {
+    const struct br_verify_study *v = study_of(s);
+    const enum br_axis axis = axis_of(s->kind);
+    *n = (struct br_numbers){.all_needed = true};
+    n->column[axis] = br_resolution_column_find(axis == BR_AXIS_SPACE ? "n" : "k");
+    enum br_status status =
+        br_numbers_make_room(n, br_verify_points(s->kind, v->count), v->expectations, err);
+    for (size_t e = 0; e < v->expectations && !status; e++) {
+        const struct br_verify_expectation *x = &v->expectation[e];
+        status = br_numbers_add_quantity(n, x->norm->name, x->norm->unit, false, err);
+        n->quantity[e].digits = DBL_DECIMAL_DIG;
+    }
+    for (size_t i = 0; i < n->rows && !status; i++)
+        status = fill_row(plan, s, i, &n->row[i], err);
+    return status;
+}
+
+/* The sizes along an axis, and one more: a finer one, or a coarser one where fine ones are lost. */
+static void name_axis(struct br_case *c, const size_t *size, size_t count, double duration,
+                      bool lost)
+{
+    const double a = (double)size[lost ? 0 : count - 1], b = (double)size[lost ? 1 : count - 2];
+    if (size[0] == size[count - 1])
+        return;
+    br_append(c->reason, sizeof c->reason, duration > 0 ? " k: " : " n: ");
+    for (size_t i = 0; i <= count; i++) {
+        const bool more = i == (lost ? 0 : count);
+        const double parts = more ? floor(a * a / b) : (double)size[lost ? i - 1 : i];
+        br_append(c->reason, sizeof c->reason, duration > 0 ? "%s%.6g" : "%s%.15g", i ? ", " : "",
+                  duration > 0 ? duration / parts : parts);
+    }
+    br_append(c->reason, sizeof c->reason, duration > 0 ? " s" : "");
+}
+
+/* What orders/ does not know of a case, and what would settle it: a line of the part `verify`. */
+static void finish_case(const struct section *s, const struct br_verify_expectation *e,
+                        struct br_case *c)
+{
+    const struct br_verify_study *v = study_of(s);
+    const enum br_flag last = c->point[c->points - 1].flag;
+    const bool lost = last == BR_FLAG_ROUND_OFF || last == BR_FLAG_REFERENCE;
     c->kind = s->kind;
-    c->expected = e->band;
     c->measure = e->norm->name;
     c->part = br_part_names[e->part];
     c->unit = e->norm->unit;
-    c->duration = s->check->scene->duration;
-    c->points = br_verify_points(s->kind, study_of(s)->count);
-    c->point = br_allocate(c->points, sizeof *c->point);
-    if (!c->point)
-        return br_no_memory(err, "the verdict");
-    for (size_t i = 0; i < c->points; i++)
-        c->point[i] = point_at(plan, s, i, e);
-    const enum br_status status = br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].at = (struct br_resolution){v->n[i], v->steps[i]};
+        c->point[i].against = against(s, i);
+    }
+    if (c->verdict != BR_INCONCLUSIVE)
+        return;
+    br_append(c->reason, sizeof c->reason, "; expect it of");
+    name_axis(c, v->n, v->count, 0, lost);
+    name_axis(c, v->steps, v->count, s->check->scene->duration, lost);
+}
+
+/* The verdicts of a section, as those of a table. */
+static enum br_status decide_section(const struct plan *plan, const struct section *s,
+                                     struct br_error *err)
+{
+    const struct br_verify_study *v = study_of(s);
+    struct br_check *check = s->check->check;
+    struct br_numbers numbers;
+    struct br_orders orders = {0};
+    enum br_status status = fill_numbers(plan, s, &numbers, err);
     if (!status)
-        br_case_decide(c);
+        status = br_orders_find(&numbers, 0, &orders, err);
+    for (size_t i = 0; i < v->expectations && !status; i++) {
+        const struct br_order_expectation e = {.axis = axis_of(s->kind),
+                                               .band = v->expectation[i].band};
+        status = br_orders_decide(&orders, &orders.of[i], &e, check, err);
+        if (!status)
+            finish_case(s, &v->expectation[i], &check->cases[check->count - 1]);
+    }
+    br_orders_clear(&orders);
+    br_numbers_clear(&numbers);
     return status;
 }
 
@@ -222,7 +290,6 @@ static void add_cost(const struct br_study *study, const struct br_scene *scene,
 static enum br_status conclude_section(const struct plan *plan, const struct section *s,
                                        struct br_error *err)
 {
-    const struct br_verify_study *v = study_of(s);
     struct br_check *check = s->check->check;
     enum br_status status = check_verifiable(plan, s, err);
     for (size_t h = 0; h < s->cases && !status; h++) {
@@ -231,21 +298,13 @@ static enum br_status conclude_section(const struct plan *plan, const struct sec
                 br_flag_beside(study_in(plan, s, h, m));
         add_cost(study_in(plan, s, h, 0), s->check->scene, check);
     }
-    for (size_t i = 0; i < v->expectations && !status; i++)
-        status = conclude_case(plan, s, &v->expectation[i], &check->cases[check->count++], err);
-    return status;
+    return status ? status : decide_section(plan, s, err);
 }
 
 static enum br_status conclude_check(const struct plan *plan, const struct br_scene_check *of,
                                      struct br_error *err)
 {
     struct br_check *check = of->check;
-    size_t cases = 0;
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        cases += of->verify->study[kind].expectations;
-    check->cases = br_allocate(cases, sizeof *check->cases);
-    if (!check->cases)
-        return br_no_memory(err, "the verdicts");
     struct br_error failure = {0};
     for (size_t i = 0; i < plan->sections && !failure.status; i++)
         if (plan->section[i].check == of)

@@ -5,7 +5,7 @@
 #define BR_STUDY_VERIFY_CHECK_H
 
 #include "base/observer.h"
-#include "orders/expectation/check.h"
+#include "orders/orders.h"
 #include "study/fit/fit.h"
 #include "study/verify/verify.h"
 

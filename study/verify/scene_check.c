@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "base/text.h"
-#include "orders/estimate.h"
 #include "solver/scene.h"
 #include "study/scene/method_fields.h"
 #include "study/verify/check.h"
@@ -22,10 +21,9 @@ static void write_cells(FILE *out, const struct br_scene *scene, const struct br
 static void write_expectation(FILE *out, const struct br_verify_expectation *expected)
 {
     const struct br_expectation *e = &expected->band;
-    char order[64];
-    fprintf(out, "    %s%s%s: %s +- %g", expected->norm->name, expected->part ? " " : "",
-            expected->part ? br_part_names[expected->part] : "",
-            br_range_text(e->order, e->highest, order, sizeof order), e->tolerance);
+    char text[BR_EXPECTATION_TEXT];
+    fprintf(out, "    %s%s%s: %s", expected->norm->name, expected->part ? " " : "",
+            expected->part ? br_part_names[expected->part] : "", br_expectation_text(e, text));
     if (*e->why)
         fprintf(out, "  # %s", e->why);
     fputc('\n', out);

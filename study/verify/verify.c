@@ -145,37 +145,6 @@ static enum br_status check_cells(const struct br_scene *scene, enum br_verify_k
     return BR_OK;
 }
 
-static enum br_status check_expectation(const struct br_scene *scene,
-                                        const struct br_verify_expectation *expected,
-                                        struct br_error *err)
-{
-    const struct br_expectation *e = &expected->band;
-    if (!br_models(scene, expected->part))
-        return br_fail(err, BR_BAD_INPUT, "the scene has no %s part",
-                       br_part_names[expected->part]);
-    if (!(e->order > 0 && e->tolerance > 0))
-        return br_fail(err, BR_BAD_INPUT,
-                       "found %g +- %g, expected an order > 0 and a tolerance > 0", e->order,
-                       e->tolerance);
-    if (e->highest != 0 && !(e->highest > e->order && isfinite(e->highest)))
-        return br_fail(err, BR_BAD_INPUT,
-                       "found an order of %g to %g, expected the lower one first", e->order,
-                       e->highest);
-    if (!(e->tolerance < e->order))
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "found %g +- %g, which includes the order 0 of an error that does not fall; expected a "
-            "tolerance below the order",
-            e->order, e->tolerance);
-    if (!isnan(e->ceiling) && !(e->ceiling > 0 && isfinite(e->ceiling)))
-        return br_fail(err, BR_BAD_INPUT, "found a constant of %g, expected one > 0", e->ceiling);
-    if (!isnan(e->floor) && !(e->floor > 0 && e->floor < e->ceiling))
-        return br_fail(err, BR_BAD_INPUT,
-                       "found a constant from %g to %g, expected 0 < the first < the second",
-                       e->floor, e->ceiling);
-    return BR_OK;
-}
-
 static const struct br_expectation *find(const struct br_verify_study *v,
                                          const struct br_norm *norm, enum br_part part)
 {
@@ -196,16 +165,15 @@ static enum br_status check_total(const struct br_verify_study *v,
     const struct br_expectation *total = &expected->band;
     if (!axial || !bending)
         return BR_OK;
-    const double low = fmin(axial->order - axial->tolerance, bending->order - bending->tolerance);
-    const double high = fmin(fmax(axial->order, axial->highest) + axial->tolerance,
-                             fmax(bending->order, bending->highest) + bending->tolerance);
-    if (total->order + total->tolerance >= low && total->order - total->tolerance <= high)
+    const double low = fmin(br_expectation_low(axial), br_expectation_low(bending));
+    const double high = fmin(br_expectation_high(axial), br_expectation_high(bending));
+    char text[BR_EXPECTATION_TEXT];
+    if (br_expectation_high(total) >= low && br_expectation_low(total) <= high)
         return BR_OK;
-    return br_fail(
-        err, BR_BAD_INPUT,
-        "%g +- %g contradicts what is expected of the parts: the total has the lower one "
-        "of their orders, %g to %g",
-        total->order, total->tolerance, low, high);
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s contradicts what is expected of the parts: the total has the lower one "
+                   "of their orders, %g to %g",
+                   br_expectation_text(total, text), low, high);
 }
 
 static enum br_status check_study(const struct br_scene *scene, enum br_verify_kind kind,
@@ -220,7 +188,8 @@ static enum br_status check_study(const struct br_scene *scene, enum br_verify_k
     for (size_t i = 0; i < v->expectations && !status; i++) {
         const struct br_verify_expectation *e = &v->expectation[i];
         *line = e->band.line;
-        status = check_expectation(scene, e, err);
+        if (!br_models(scene, e->part))
+            status = br_fail(err, BR_BAD_INPUT, "the scene has no %s part", br_part_names[e->part]);
         if (!status && find(v, e->norm, e->part) != &e->band)
             status = br_fail(err, BR_BAD_INPUT, "%s %s is given twice", e->norm->name,
                              br_part_names[e->part]);

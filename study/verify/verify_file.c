@@ -151,32 +151,22 @@ static bool parse_what(const char *text, struct br_verify_expectation *e)
     return false;
 }
 
-/* "at most 3e-4 m^(3/2)" or "constant 2e-4 to 3e-4 m^(3/2)" */
-static bool parse_range(const char *text, const char *unit, struct br_expectation *e)
+/* The axis of the study may stand before the order: of h and k together the order is one in k. */
+static enum br_status read_band(struct study_part *b, const char *text,
+                                struct br_verify_expectation *e, struct br_error *err)
 {
-    const char *ceiling = br_skip_word(text, "at most");
-    if (!ceiling) {
-        const char *floor = br_skip_word(text, "constant");
-        floor = floor ? br_read_number(floor, &e->floor) : NULL;
-        ceiling = br_skip_word(floor, "to");
-    }
-    const char *end = ceiling ? br_read_number(ceiling, &e->ceiling) : NULL;
-    end = br_skip_word(end, unit);
-    return end && !*end;
-}
-
-/* "2 +- 0.1" or "2 to 4 +- 0.1", and perhaps a range of the constant behind a comma */
-static bool parse_expectation(const char *text, struct br_verify_expectation *expected)
-{
-    struct br_expectation *e = &expected->band;
-    e->floor = e->ceiling = NAN;
-    const char *end = br_read_number(text, &e->order), *to = br_skip_word(end, "to");
-    end = br_skip_word(to ? br_read_number(to, &e->highest) : end, "+-");
-    end = end ? br_read_number(end, &e->tolerance) : NULL;
-    if (!end || !*end)
-        return end != NULL;
-    end = br_skip_word(end, ",");
-    return end && parse_range(end, expected->norm->unit, e);
+    const enum br_axis refined = b->kind == BR_VERIFY_SPACE ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    enum br_axis axis;
+    if (br_expectation_read(&text, e->norm->unit, &axis, &e->band, err))
+        return err->status;
+    if (axis != BR_AXES && axis != refined)
+        return br_fail(err, BR_BAD_INPUT, "found an order in %s, expected one in %s",
+                       br_axis_letters[axis], br_axis_letters[refined]);
+    return !*text ? BR_OK
+                  : br_fail(err, BR_BAD_INPUT,
+                            "found '%s' behind the order, expected its end, or a range of the "
+                            "constant, like ', at most 3e-4 %s' or ', constant 2e-4 to 3e-4 %s'",
+                            text, e->norm->unit, e->norm->unit);
 }
 
 static enum br_status read_expectation(struct study_part *b, const char *what,
@@ -184,17 +174,13 @@ static enum br_status read_expectation(struct study_part *b, const char *what,
 {
     const size_t line = br_yaml_line(node);
     struct br_verify_expectation e = {.band.line = line};
+    struct br_error inner = {0};
     char text[BR_SUGGESTION];
     if (!parse_what(what, &e))
         return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s%s",
                                br_verify_names[b->kind], expected_study(b), suggestion(what, text));
-    if (!parse_expectation(br_yaml_text(node), &e))
-        return br_scene_refuse(
-            b->r, line, what,
-            "found '%s', expected an order with its tolerance, and perhaps a range "
-            "of the constant, like '2 +- 0.1, at most 3e-4 %s' or '2 +- 0.1, constant "
-            "2e-4 to 3e-4 %s'",
-            br_yaml_text(node), e.norm->unit, e.norm->unit);
+    if (read_band(b, br_yaml_text(node), &e, &inner))
+        return br_scene_pass_on(b->r, line, what, &inner);
     if (b->study->expectations == BR_MOST_EXPECTATIONS)
         return br_scene_refuse(b->r, line, what, "given twice");
     b->study->expectation[b->study->expectations++] = e;

@@ -37,6 +37,7 @@ struct made {
     struct br_quantity quantity;
     struct br_numbers_row row[MOST_ROWS];
     double error[MOST_ROWS];
+    enum br_flag out; /* none */
     struct br_numbers numbers;
     double p, q; /* the orders; q: NaN without time steps */
 };
@@ -45,8 +46,12 @@ static void add(struct made *m, double h, double k, double error)
 {
     const size_t i = m->numbers.rows++;
     m->error[i] = error;
-    m->row[i] = (struct br_numbers_row){
-        .given = {h, k}, .z = {h, k}, .number = &m->error[i], .line = i + 2, NAN, NAN};
+    m->row[i] = (struct br_numbers_row){.given = {h, k},
+                                        .z = {h, k},
+                                        .number = &m->error[i],
+                                        .out = &m->out,
+                                        .line = i + 2,
+                                        .seconds = NAN};
 }
 
 /* A line of 6 to 8 meshes, of ratio 1.5 to 2. */
@@ -128,8 +133,10 @@ static void expect_wrong(struct tally *t, const struct br_orders *o, enum br_axi
     struct br_check check = {.path = "made"};
     const double off = between(0.3, 1) * (uniform() < 0.5 ? -1 : 1);
     struct br_order_expectation e = {
-        .quantity = "e", .axis = axis, .order = truth + off, .tolerance = 0.1};
-    if (!(e.order > e.tolerance) || br_orders_check(o, &e, 1, &check, &err))
+        .quantity = "e",
+        .axis = axis,
+        .band = {.order = truth + off, .tolerance = 0.1, .floor = NAN, .ceiling = NAN}};
+    if (!(e.band.order > e.band.tolerance) || br_orders_check(o, &e, 1, &check, &err))
         return;
     t->wrong++;
     t->passed += check.cases[0].verdict == BR_PASS;

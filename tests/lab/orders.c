@@ -182,7 +182,9 @@ static enum br_verdict verdict_of(const struct br_orders *o, int axis, double ex
     struct br_error err = {0};
     struct br_check check = {.path = "made"};
     const struct br_order_expectation e = {
-        .quantity = "e", .axis = (enum br_axis)axis, .order = expected, .tolerance = tolerance};
+        .quantity = "e",
+        .axis = (enum br_axis)axis,
+        .band = {.order = expected, .tolerance = tolerance, .floor = NAN, .ceiling = NAN}};
     *c = (struct br_case){.verdict = BR_INCONCLUSIVE, .order = {NAN, NAN, NAN}};
     if (!br_orders_check(o, &e, 1, &check, &err)) /* else there is no line of three sizes */
         *c = check.cases[0];
