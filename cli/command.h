@@ -36,7 +36,7 @@ struct br_beam {
     size_t (*add_options)(const struct br_command *command, struct br_option row[BR_OPTIONS],
                           size_t count);
     const char *(*standard)(const struct br_option *row, char text[BR_OPTION_TEXT]);
-    enum br_status (*check_options)(const struct br_options *options, struct br_error *err);
+    enum br_status (*check_options)(struct br_options *options, struct br_error *err);
     enum br_status (*start)(struct br_error *err);
     enum br_status (*end)(enum br_status status, struct br_error *err);
     bool (*first)(void);

@@ -2,6 +2,7 @@
 /* The program beamrate-orders: the orders of anybody's numbers alone. */
 #include "cli/check.h"
 #include "cli/command.h"
+#include "cli/trade.h"
 
 static enum br_status check(const struct br_options *options, struct br_session *session,
                             struct br_error *err)
@@ -26,16 +27,33 @@ static const struct br_command br_command_check = {
     .run = check,
 };
 
+static enum br_status trade(const struct br_options *options, struct br_session *session,
+                            struct br_error *err)
+{
+    if (options->words == 0)
+        return br_fail(err, BR_BAD_INPUT, "no program is given, expected study files or tables");
+    return br_trade_sources(options, session, NULL, 0, err);
+}
+
+static const struct br_command br_command_trade = {
+    .bit = BR_FOR_TRADE,
+    .name = "trade",
+    .arguments = "PROGRAM...",
+    .title = "what a digit costs: errors against costs of several programs",
+    .about = BR_TRADE_ABOUT,
+    .example = {"beamrate-orders trade fd.yaml fem.yaml --trust",
+                "beamrate-orders trade fd.csv spectral.csv --cost dofs"},
+    .most_words = BR_MOST_WORDS,
+    .run = trade,
+};
+
 extern const struct br_command br_command_help, br_command_orders;
 
 static const struct br_command *const commands[] = {
-    &br_command_orders,
-    &br_command_check,
-    &br_command_help,
-    NULL,
+    &br_command_orders, &br_command_check, &br_command_trade, &br_command_help, NULL,
 };
 
-static const char *const of_beamrate[] = {"run",      "study",  "trade",       "tables", "figures",
+static const char *const of_beamrate[] = {"run",      "study",  "tables",      "figures",
                                           "extremes", "scenes", "completions", NULL};
 
 const struct br_program br_program = {

@@ -12,10 +12,12 @@
 
 /* ---- what is refused ---- */
 
-/* What other programs call an option: the name here, and more to say of it. */
+/* What other programs call an option: the name of an option here, and more to say of it. */
 static const struct elsewhere {
     const char *word, *name, *more;
 } elsewhere[] = {
+    {"jobs", "cost", "runs are timed one at a time"},
+    {"threads", "cost", "runs are timed one at a time"},
     {"dt", "k", ""},
     {"time-step", "k", ""},
     {"order", "expect",
@@ -80,7 +82,10 @@ static void suggest(const struct rows *rows, const char *word, char *text, size_
     *text = '\0';
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(elsewhere[i].word, word) == 0 && find(rows, elsewhere[i].name)) {
-            br_append(text, size, "did you mean --%s?%s", elsewhere[i].name, elsewhere[i].more);
+            const char *more = elsewhere[i].more; /* without a blank it is all that is said */
+            const bool means = !*more || *more == ' ';
+            br_append(text, size, "%s%s%s%s", means ? "did you mean --" : "",
+                      means ? elsewhere[i].name : "", means ? "?" : "", more);
             return;
         }
     struct br_option theirs[BR_OPTIONS];
@@ -232,11 +237,19 @@ static enum br_status read_value(struct br_options *o, const struct br_option *r
         check_times(row, text, &inner);
     else if (row->kind == BR_TAKES_WORD || row->kind == BR_TAKES_WORD_LIST)
         read_words(o, row, text, &inner);
-    else if (row->kind == BR_TAKES_NUMBER && (*number = br_allocate(1, sizeof **number))) {
-        *count = 1;
-        br_read_in_range(text, &row->range, *number, &inner);
-    } else if (row->kind == BR_TAKES_NUMBER)
-        br_no_memory(&inner, "the options");
+    else if (row->kind == BR_TAKES_NUMBER || row->kind == BR_TAKES_SECONDS) {
+        double seconds;
+        char plain[40];
+        const char *end = row->kind == BR_TAKES_SECONDS ? br_read_time(text, NAN, &seconds) : NULL;
+        const bool is_time = end && !*end && isfinite(seconds);
+        *number = br_allocate(1, sizeof **number);
+        *count = *number ? 1 : 0;
+        if (!*number)
+            br_no_memory(&inner, "the options");
+        else
+            br_read_in_range(is_time ? br_shortest(seconds, plain, sizeof plain) : text,
+                             &row->range, *number, &inner);
+    }
     return inner.status ? br_fail(err, inner.status, "%s: %s", name, inner.message) : BR_OK;
 }
 

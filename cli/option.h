@@ -43,6 +43,9 @@ enum br_option_id {
     BR_OPT_VALUE,
     BR_OPT_COLUMN,
     BR_OPT_WHERE,
+    BR_OPT_FINEST,
+    BR_OPT_WITHOUT,
+    BR_OPT_COST,
     BR_OPT_DIMENSION,
     BR_OPT_FORMAL,
     BR_OPT_EXPECT,
@@ -81,6 +84,7 @@ enum br_option_kind {
     BR_TAKES_FILE,
     BR_TAKES_DIR,
     BR_TAKES_NUMBER,  /* a number of the range */
+    BR_TAKES_SECONDS, /* the same, s, or with a unit: 5 min */
     BR_TAKES_COUNTS,  /* whole numbers, each once */
     BR_TAKES_NUMBERS, /* numbers of the range, each once */
     BR_TAKES_TIMES,   /* times above 0: seconds, or parts of the duration, T/100 */

@@ -57,6 +57,19 @@ static const struct br_option rows[] = {
     {BR_OPT_WHERE, "where", 0, "COLUMN=WORD", "reads the rows of one study: method=P1", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "Without it, each study is answered, for each word or degree of a column."},
+    {BR_OPT_FINEST, "finest", 0, "COUNT", "orders of so many of the finest sizes alone", NULL,
+     BR_TAKES_NUMBER, WHOLE(3, 1000), .commands = BR_FOR_ORDERS,
+     .more = "Along each axis. The answer, verdicts and pictures say so; the other rows are shown "
+             "as left out by hand."},
+    {BR_OPT_WITHOUT, "without", 0, "LIST", "sizes that are left out: 8, or 8,16, or n=8", NULL,
+     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "Before --finest counts."},
+    {BR_OPT_COST, "cost", 0, "NAME",
+     "cost of programs: cpu, wall, dofs, iterations, memory, or a column (default: the first that "
+     "all have)",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_TRADE,
+     .more =
+         "Of a run, cpu and wall are measured, and so is memory. Other names are those of columns, "
+         "or of numbers that 'read:' of a study file names."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
      "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
      .commands = BR_FOR_ORDERS,
@@ -72,12 +85,12 @@ static const struct br_option rows[] = {
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
-     "600", BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_ORDERS},
+     "600", BR_TAKES_SECONDS, BETWEEN(0, 1e10), .commands = BR_FOR_ORDERS},
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,
      "run the commands of the study files, and read their tables in any folder", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK | BR_FOR_TRADE,
      .more = "Needed each time: a study file with a command is a program. Read it before."},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
@@ -126,8 +139,8 @@ static const struct br_option rows[] = {
                  BR_FOR_ORDERS},
     {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
      WHOLE(0, 4096),
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_EXTREMES |
-                 BR_FOR_FIGURES | BR_FOR_ORDERS,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_EXTREMES | BR_FOR_FIGURES |
+                 BR_FOR_ORDERS,
      .more = "The results are the same for any number, to the bit."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
      BR_TAKES_FLAG,

@@ -86,6 +86,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
     q->repeat = br_option_number(o, BR_OPT_REPEAT, q->repeat);
+    q->finest = br_option_number(o, BR_OPT_FINEST, 0);
     if (unused)
         return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
     if (q->command && br_option_given(o, BR_OPT_COLUMN))
@@ -103,6 +104,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     const bool failed = read_readings(br_option_text(o, BR_OPT_READ), q, err) ||
                         copy_text(br_option_text(o, BR_OPT_COLUMN), &q->columns, err) ||
                         copy_text(br_option_text(o, BR_OPT_WHERE), &q->where, err) ||
+                        copy_text(br_option_text(o, BR_OPT_WITHOUT), &q->without, err) ||
                         copy_text(br_option_text(o, BR_OPT_ERROR), &q->errors, err) ||
                         copy_text(br_option_text(o, BR_OPT_VALUE), &q->values, err);
     return failed ? err->status : BR_OK;
@@ -129,10 +131,10 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
 static enum br_status read_study(const char *path, const struct br_options *o,
                                  struct br_study_file *study, struct br_error *err)
 {
-    static const enum br_option_id refused[] = {BR_OPT_N,      BR_OPT_K,     BR_OPT_COLUMN,
-                                                BR_OPT_ERROR,  BR_OPT_VALUE, BR_OPT_DIMENSION,
-                                                BR_OPT_FORMAL, BR_OPT_READ,  BR_OPT_TIME_LIMIT,
-                                                BR_OPT_REPEAT, BR_OPT_WHERE, BR_OPTIONS};
+    static const enum br_option_id refused[] = {
+        BR_OPT_N,         BR_OPT_K,      BR_OPT_COLUMN,  BR_OPT_ERROR,      BR_OPT_VALUE,
+        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ,    BR_OPT_TIME_LIMIT, BR_OPT_REPEAT,
+        BR_OPT_WHERE,     BR_OPT_FINEST, BR_OPT_WITHOUT, BR_OPTIONS};
     char *text = NULL;
     if (br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,

@@ -195,11 +195,16 @@ static enum br_status decide(const struct br_output *o, const char *manifest, st
 
 /* Steps 3, 4 and 5, which an earlier program may have done. False: errno says why, and name (out)
  * which file it was. */
-static bool move_new(const struct br_output *o, const char *new, char name[NAME_MAX + 1])
+static bool move_new(struct br_output *o, const char *new, char name[NAME_MAX + 1])
 {
-    for (const char *line = new; next_name(&line, name);)
-        if (is_there(o->descriptor, name) && renameat(o->descriptor, name, o->parent, name) != 0)
+    for (const char *line = new; next_name(&line, name);) {
+        const bool replaces = is_there(o->parent, name);
+        if (!is_there(o->descriptor, name))
+            continue;
+        if (renameat(o->descriptor, name, o->parent, name) != 0)
             return false;
+        o->replaced += replaces;
+    }
     return true;
 }
 

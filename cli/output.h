@@ -38,6 +38,7 @@ struct br_output {
     int parent, descriptor; /* the open folder and hidden folder; -1: not open */
     int lock;               /* the open file that is locked; -1: not open */
     size_t made;            /* as of br_make_folders */
+    size_t replaced;        /* files of the old set that the new one has, too */
     size_t removed;         /* files of the old set that the new one lacks */
 };
 

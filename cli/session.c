@@ -222,8 +222,9 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
         fputs("Written to ", stdout);
         br_quote(stdout, &br_for_text, s->output.folder);
         fputc('/', stdout);
-        if (s->output.removed)
-            printf("; removed there: %zu files of an earlier run", s->output.removed);
+        if (s->output.replaced || s->output.removed)
+            printf("; of the files of an earlier run there %zu are replaced, %zu removed",
+                   s->output.replaced, s->output.removed);
         fputc('\n', stdout);
     }
     return status;

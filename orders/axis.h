@@ -23,9 +23,10 @@ enum br_flag {
     BR_FLAG_STALLED,   /* finer grids have no smaller error */
     BR_FLAG_COARSE,    /* the grid is too coarse for the order of the finer ones */
     BR_FLAG_OUTLIER,   /* the error is far from those of its neighbours */
+    BR_FLAG_BY_HAND,   /* it is outside of the window that was asked for */
     BR_CELL_FLAGS
 };
 const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable",
-                                           "stagnation", "not asymptotic", "outlier" */
+                                           "stagnation", "not asymptotic", "outlier", "by hand" */
 
 #endif

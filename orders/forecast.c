@@ -29,8 +29,10 @@ struct br_orders_forecast br_orders_forecast_of(const struct br_orders *o,
         f.number = c->point[last].flag || has_floor(c) ? (double)NAN : c->point[last].error;
         f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
     }
-    if (isnan(o->numbers->row[line->row[last]].number[of->quantity]))
-        f.number = NAN; /* the index is that of a coarser row */
+    const enum br_sequence sequence = line->limits.limit.sequence;
+    if (isnan(o->numbers->row[line->row[last]].number[of->quantity]) || /* of a coarser row */
+        sequence == BR_SEQUENCE_ANOMALOUS || sequence == BR_SEQUENCE_UNKNOWN)
+        f.number = is_value ? (double)NAN : f.number;
     f.ratio = f.z / o->numbers->row[line->row[last - 1]].z[line->axis];
     if (!(f.number > 0 && f.order > 0))
         f.line = NULL;
@@ -105,16 +107,4 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     *growth = found.order;
     free(point);
     return status;
-}
-
-const struct br_numbers_row *br_orders_cheapest(const struct br_orders *o, size_t quantity,
-                                                double error)
-{
-    const struct br_numbers_row *best = NULL;
-    for (size_t i = 0; i < o->numbers->rows; i++) {
-        const struct br_numbers_row *row = &o->numbers->row[i];
-        if (row->number[quantity] <= error && (!best || row->seconds < best->seconds))
-            best = row;
-    }
-    return best && isfinite(best->seconds) ? best : NULL;
 }

@@ -111,6 +111,7 @@ static enum br_status begin_case(const struct br_orders *o, size_t quantity, enu
         .points = points,
         .order = {NAN, NAN, NAN},
         .may_miss = !o->numbers->all_needed,
+        .window = q->window,
     };
     c->point = br_allocate(points + 1, sizeof *c->point);
     return c->point ? BR_OK : br_no_memory(err, "the orders");
@@ -252,7 +253,8 @@ enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity
         status = br_no_memory(err, "the orders");
     size_t rows = 0;
     for (size_t i = 0; i < numbers->rows && !status; i++)
-        if (!(numbers->row[i].absent && numbers->row[i].absent[of->quantity]))
+        if (!(numbers->row[i].absent && numbers->row[i].absent[of->quantity]) &&
+            numbers->row[i].out[of->quantity] != BR_FLAG_BY_HAND)
             sorted[rows++] = (struct line_row){alone ? 0 : z_of(numbers, i, other(axis)),
                                                z_of(numbers, i, axis), i};
     if (!status)

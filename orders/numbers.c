@@ -16,17 +16,14 @@ void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_r
              br_numbers_text(column, (by_list ? row->listed : row->given)[axis], number));
 }
 
-enum { CELL = 2 * 64 + 2 }; /* bytes of a cell's name */
-
-/* "n = 8, k = 0.1" */
-static void name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
-                      char text[CELL])
+void br_numbers_name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                          char text[BR_CELL_NAME])
 {
     char size[BR_AXES][64] = {""};
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis])
             br_numbers_name(numbers, row, (enum br_axis)axis, size[axis]);
-    snprintf(text, CELL, "%s%s%s", size[0], *size[0] && *size[1] ? ", " : "", size[1]);
+    snprintf(text, BR_CELL_NAME, "%s%s%s", size[0], *size[0] && *size[1] ? ", " : "", size[1]);
 }
 
 enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
@@ -112,9 +109,10 @@ double br_numbers_rounding(const struct br_quantity *q, double number)
 
 void br_numbers_clear(struct br_numbers *numbers)
 {
-    for (size_t i = 0; i < numbers->quantities; i++) {
+    for (size_t i = 0; i < numbers->quantities + numbers->costs; i++) {
         free(numbers->quantity[i].name);
         free(numbers->quantity[i].unit);
+        free(numbers->quantity[i].window);
         for (int axis = 0; axis < BR_AXES; axis++)
             free(numbers->quantity[i].differences[axis].point);
     }
@@ -161,8 +159,8 @@ enum { SOURCE = 450 };
 static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      const char *path, char text[SOURCE])
 {
-    char size[CELL];
-    name_cell(numbers, row, size);
+    char size[BR_CELL_NAME];
+    br_numbers_name_cell(numbers, row, size);
     if (row->line)
         snprintf(text, SOURCE, "%.300s:%zu", path, row->line);
     else
@@ -284,10 +282,10 @@ enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br
             first = first ? first : &numbers->row[i];
             failed++;
         }
-    char size[CELL];
+    char size[BR_CELL_NAME];
     if (!failed)
         return BR_OK;
-    name_cell(numbers, first, size);
+    br_numbers_name_cell(numbers, first, size);
     return br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s: %s", failed,
                    numbers->rows, size, first->failure);
 }
@@ -299,7 +297,7 @@ const char *const br_axis_letters[] = {"h", "k"};
 const char *br_flag_name(enum br_flag flag)
 {
     static const char *const names[BR_CELL_FLAGS] = {
-        "",         "reference",  "round-off",      "failed",
-        "unstable", "stagnation", "not asymptotic", "outlier"};
+        "",           "reference",      "round-off", "failed", "unstable",
+        "stagnation", "not asymptotic", "outlier",   "by hand"};
     return names[flag];
 }

@@ -156,6 +156,53 @@ static bool is_fine(const struct br_orders *o, const struct br_quantity_orders *
     return line + 2 >= of->lines || of->line[line + 2].axis != of->line[line].axis;
 }
 
+static double width_of(const struct br_estimate *order)
+{
+    return order->high - order->low;
+}
+
+/* Takes exponential convergence from the same errors, as a power of e^-degree, if that is all that
+ * they show. */
+static void take_exponential(struct br_case *c, const struct br_case *by)
+{
+    bool all = !by->law && by->order.low > 0 && width_of(&by->order) <= by->order.value;
+    for (size_t i = 0; i < by->points; i++)
+        all &= !by->point[i].lost;
+    if (!all)
+        return;
+    c->factor = (struct br_estimate){exp(by->order.value), exp(by->order.low), exp(by->order.high)};
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].flag = by->point[i].flag;
+        c->point[i].used = by->point[i].used;
+        c->point[i].lost = false;
+    }
+    c->used = by->used;
+    c->order = (struct br_estimate){NAN, NAN, NAN};
+    c->low99 = c->high99 = NAN;
+    c->law = NULL;
+    snprintf(c->note, sizeof c->note, "%s", by->note);
+}
+
+enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
+                                 struct br_case *c, struct br_error *err)
+{
+    struct br_case by = *c;
+    if (!size->is_degree)
+        return br_case_observe(c, least, err);
+    by.point = br_allocate(c->points + 1, sizeof *by.point);
+    if (!by.point)
+        return br_no_memory(err, "the orders");
+    memcpy(by.point, c->point, c->points * sizeof *by.point);
+    for (size_t i = 0; i < by.points; i++)
+        by.point[i].z = exp(1 - 1 / by.point[i].z);
+    const bool failed = br_case_observe(c, least, err) ||
+                        (isnan(c->factor.value) && br_case_observe(&by, least, err));
+    if (!failed && isnan(c->factor.value))
+        take_exponential(c, &by);
+    free(by.point);
+    return failed ? err->status : BR_OK;
+}
+
 /* Finds the orders of all lines, which leaves out the errors that do not show them. On a grid,
  * errors may stay along one axis since the error of the other axis is larger; where the joint fit
  * describes all errors, none is left out, and of powers no line is needed then. */
@@ -167,9 +214,9 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
         struct br_case *c = &of->line[l].observed;
         if (stopped(o->numbers, err))
             return err->status;
-        if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
-            status = br_case_observe(c, BR_ORDERS_LEAST, err);
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
+        if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
+            status = br_orders_observe(size, BR_ORDERS_LEAST, c, err);
         if (!status && (is_scatter(&of->line[l]) || size->is_degree))
             br_case_take_order(c, (struct br_estimate){NAN, NAN, NAN}, NAN);
         else if (!status && !leave_out)
@@ -256,11 +303,6 @@ static struct br_orders_answer answer_of_grid(const struct br_orders *o,
 }
 
 const char br_orders_uneven[] = "the errors do not fall, or fall slowly and unevenly";
-
-static double width_of(const struct br_estimate *order)
-{
-    return order->high - order->low;
-}
 
 /* Whether each error that the order of a line rests on is smaller than the one before it; where
  * there is no order, whether all are. */

@@ -30,6 +30,8 @@ struct br_quantity {
     bool is_value; /* true: its limit is not known; false: it is an error, whose limit is 0 */
     int digits, decimals; /* the most that one of its numbers has, if zeros at the end are none */
     bool fixed;           /* printed to these decimals; else to these digits */
+    char *window;         /* rows by hand, "the 3 finest of 6"; NULL: all rows have a part; owned */
+    size_t case_at;       /* where " [method = P1]" begins in its name; 0: there is one study */
     /* What a source knows besides; zeros: nothing. */
     double formal[BR_AXES]; /* the order of theory: errors that do not fall, or fall slowly and
                                unevenly, show none then */
@@ -73,7 +75,7 @@ struct br_numbers {
     const struct br_resolution_column *listed[BR_AXES]; /* of runs: that of their list */
     char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
     struct br_quantity *quantity;                       /* owned */
-    size_t quantities;
+    size_t quantities, costs; /* the columns of costs stand behind the others */
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
     bool powers; /* the errors of each axis are known to be one power, without scatter and, but for
@@ -110,6 +112,11 @@ void br_numbers_sort(struct br_numbers *numbers);
 /* "n = 40", with the number as given; "the run of n = 40" where a run did not state its size. */
 void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      enum br_axis axis, char text[64]);
+
+/* "n = 8, k = 0.1" */
+enum { BR_CELL_NAME = 2 * 64 + 2 };
+void br_numbers_name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                          char text[BR_CELL_NAME]);
 
 /* Sorts the rows, and makes sizes one that differ by round-off. Refuses (BR_BAD_INPUT, with `path`
  * and the line first) resolutions that are not above 0 or are there twice, fewer than three
@@ -196,6 +203,11 @@ enum br_status br_orders_add_differences(const struct br_orders *orders,
                                          struct br_quantity_orders *of, enum br_axis axis,
                                          struct br_error *err);
 
+/* br_case_observe of a line over sizes of this column. Errors over degrees that are few, or have few
+ * digits, may fit powers of 1/(degree + 1) as well as exponential convergence. */
+enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
+                                 struct br_case *c, struct br_error *err);
+
 /* Whether a row has an error that a joint fit can take; half a unit of its last digit, 0 where it
  * was not printed. */
 bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row);
@@ -256,10 +268,6 @@ bool br_orders_costs_differ(const struct br_orders *orders);
  * BR_NO_MEMORY. */
 enum br_status br_orders_growth(const struct br_orders *orders, enum br_axis axis,
                                 struct br_estimate *growth, struct br_error *err);
-
-/* The cheapest run whose error in a quantity is at most this; NULL: none, or no run was timed. */
-const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, size_t quantity,
-                                                double error);
 
 /* ---- verdicts ---- */
 

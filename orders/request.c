@@ -31,6 +31,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->errors);
     free(r->columns);
     free(r->where);
+    free(r->without);
     free(r->values);
     free((struct br_reading *)r->reading);
     free(r->expectation);
@@ -52,7 +53,10 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
         return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
     const enum br_status status = (r->command ? br_program_run : br_table_read)(r, numbers, err);
     numbers->observer = r->observer;
-    return status ? status : br_numbers_check(numbers, br_orders_path(r), err);
+    return status || br_numbers_check(numbers, br_orders_path(r), err) ||
+                   br_orders_window(r, numbers, err)
+               ? err->status
+               : BR_OK;
 }
 
 double br_orders_dimension(const struct br_orders_request *r,
@@ -283,6 +287,11 @@ void br_orders_problem(const struct br_orders_request *r, char problem[40])
         add_text(&sum, r->columns);
     if (r->where)
         add_text(&sum, r->where);
+    if (r->finest > 0 || r->without) {
+        snprintf(text, sizeof text, "finest %g without ", r->finest);
+        add_text(&sum, text);
+        add_text(&sum, r->without);
+    }
     if (r->repeat > 1) {
         snprintf(text, sizeof text, "repeat %.17g", r->repeat);
         add_text(&sum, text);

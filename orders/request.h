@@ -49,6 +49,8 @@ struct br_orders_request {
     double dimension;      /* of the mesh, for unknowns (dofs) and cells: br_orders_dimension */
     bool assumed_dimension; /* nobody stated it */
     double formal;          /* the order of theory for values; 0: nobody stated it */
+    double finest;          /* so many of the finest sizes along each axis have a part; 0: all */
+    char *without;          /* sizes that have none, "8, n=16"; NULL: none */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
     char *table;           /* text of a table; NULL: none */
@@ -65,6 +67,8 @@ struct br_orders_request {
     size_t readings;
     double seconds; /* limit of one run */
     double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
+    const char *cost; /* of a trade: columns of costs are read, this one too, and runs are repeated
+                         until the median of their times is known; "": the usual ones; NULL: not */
     /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
     const char *cache;                  /* the folder of finished cells, made where it is missing;
@@ -82,6 +86,12 @@ void br_orders_request_clear(struct br_orders_request *request);
  * where there is neither. */
 enum br_status br_orders_read(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
+
+/* Gives BR_FLAG_BY_HAND to the numbers outside of the request's window, which then have no part in
+ * orders, limits and verdicts (window.c, for br_orders_read). Fails with BR_NO_MEMORY, or with
+ * BR_BAD_INPUT for a size that is not there, or where too few sizes are left. */
+enum br_status br_orders_window(const struct br_orders_request *request, struct br_numbers *numbers,
+                                struct br_error *err);
 
 /* The file that the numbers come from, for messages. */
 const char *br_orders_path(const struct br_orders_request *request);

@@ -107,6 +107,12 @@ static enum br_status take_repeat(const struct entry *e)
                          e->text, BR_MOST_SIZES);
 }
 
+static enum br_status take_finest(const struct entry *e)
+{
+    static const struct br_number_range range = {BR_ORDERS_LEAST, BR_MOST_SIZES, true};
+    return br_read_in_range(e->text, &range, &e->request->finest, e->err);
+}
+
 static enum br_status take_reading(const struct entry *e)
 {
     return br_orders_request_reading(e->request, e->name, e->text, e->err);
@@ -140,6 +146,8 @@ static const struct key keys[] = {
     {"read", take_reading, .of_runs = true, .pairs = true},
     {"column", take_text, .at = offsetof(struct br_orders_request, columns)},
     {"where", take_text, .at = offsetof(struct br_orders_request, where)},
+    {"finest", .take = take_finest},
+    {"without", take_text, .at = offsetof(struct br_orders_request, without)},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},

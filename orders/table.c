@@ -139,8 +139,10 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
     struct br_numbers *n = s->numbers;
     if (br_roles_check_words(r, column, err))
         return err->status;
-    for (size_t i = 0; i < n->rows && r->groups > 1; i++)
+    for (size_t i = 0; i < n->rows && r->groups > 1; i++) {
         n->row[i].absent[quantity] = true;
+        n->row[i].number[quantity] = NAN;
+    }
     for (size_t i = 0; i < r->rows; i++) {
         if (r->dropped[i] || r->group[i] != group)
             continue;
@@ -173,20 +175,43 @@ static enum br_status take_quantity(struct source *s, size_t group, size_t colum
         return br_no_memory(err, "the table");
     const enum br_status status =
         br_numbers_add_quantity(n, name, c->unit, c->role == BR_ROLE_VALUE, err);
+    n->quantity[quantity].case_at = *group_name ? strlen(of) : 0;
     free(name);
     return status ? status : take_numbers(s, group, column, quantity, err);
 }
 
-static enum br_status take_quantities(struct source *s, struct br_error *err)
+/* Whether a column has costs, and is not studied. */
+static bool is_cost(const struct source *s, const struct br_role_column *c)
+{
+    double factor;
+    return s->request->cost && c->name && c->numbers && !c->words && !is_studied(c) &&
+           (strcmp(c->name, s->request->cost) == 0 ||
+            br_cost_of(c->name, c->unit, &factor) != BR_COSTS);
+}
+
+/* What is studied, or the costs. */
+static enum br_status take_quantities(struct source *s, bool costs, struct br_error *err)
 {
     const struct br_roles *r = &s->roles;
-    for (size_t i = 0; i < r->columns; i++)
-        for (size_t group = 0; group < r->groups && is_studied(&r->column[i]); group++)
+    for (size_t i = 0; i < r->columns; i++) {
+        const bool is = costs ? is_cost(s, &r->column[i]) : is_studied(&r->column[i]);
+        for (size_t group = 0; group < r->groups && is; group++)
             if (br_observer_stops(s->request->observer))
                 return br_fail(err, BR_INTERRUPTED, "interrupted");
             else if (take_quantity(s, group, i, err))
                 return err->status;
+    }
     return BR_OK;
+}
+
+static enum br_status take_costs(struct source *s, struct br_error *err)
+{
+    struct br_numbers *n = s->numbers;
+    const size_t studied = n->quantities;
+    const enum br_status status = take_quantities(s, true, err);
+    n->costs = n->quantities - studied;
+    n->quantities = studied;
+    return status;
 }
 
 /* ---- what is said ---- */
@@ -243,13 +268,14 @@ static void say_sizes(struct source *s, enum br_axis axis)
         say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
 }
 
+/* role: BR_ROLE_ASIDE, the costs. */
 static void say_columns(struct source *s, enum br_role role, const char *what)
 {
     const struct br_roles *r = &s->roles;
     char text[200];
     size_t said = 0;
     for (size_t i = 0; i < r->columns; i++)
-        if (r->column[i].role == role)
+        if (role ? r->column[i].role == role : is_cost(s, &r->column[i]))
             say(s, "%s%s", said++ ? ", " : what, quoted(r->column[i].label, text));
 }
 
@@ -267,13 +293,19 @@ static void list_left(struct source *s)
     char text[32];
     const struct br_roles *r = &s->roles;
     const struct br_fields *f = &s->fields;
-    s->numbers->left = br_store_take(&s->numbers->store, 2 * r->columns + r->rows + f->lefts + 1,
+    s->numbers->left = br_store_take(&s->numbers->store, 3 * r->columns + r->rows + f->lefts + 1,
                                      sizeof *s->numbers->left);
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
-        if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
+        if ((r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) &&
+            !is_cost(s, &r->column[i])) {
             say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
+        }
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].rates_in_brackets) {
+            say(s, "%s: the numbers in brackets", r->column[i].label);
+            leave(s, "rates");
         }
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].gaps) {
@@ -286,7 +318,9 @@ static void list_left(struct source *s)
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
-        say(s, "line %zu '%s'", f->left[i].line, f->left[i].text);
+        if (f->left[i].line) /* else of a source without lines */
+            say(s, "line %zu ", f->left[i].line);
+        say(s, "'%s'", f->left[i].text);
         leave(s, f->left[i].why);
     }
 }
@@ -326,12 +360,16 @@ static enum br_status state(struct source *s, struct br_error *err)
         say_sizes(s, (enum br_axis)axis);
     say_columns(s, BR_ROLE_ERROR, "; errors: ");
     say_columns(s, BR_ROLE_VALUE, "; values: ");
+    say_columns(s, BR_ROLE_ASIDE, "; costs: ");
     say_columns(s, BR_ROLE_DEVIATION, "; standard deviations: ");
     say_columns(s, BR_ROLE_CASE, "; a study for each of: ");
     if (r->means)
         say(s, "; of rows of one size the mean");
-    if (*r->assumed && !(n->assumed && !strstr(r->assumed, "; ")))
+    if (*r->assumed &&
+        (!n->assumed || strstr(r->assumed, "; ") || strstr(r->assumed, "other rates")))
         say(s, "; %s", r->assumed);
+    if (r->of_rates)
+        say(s, "; %s", r->of_rates);
     say_left(s);
     n->taken = keep(s);
     if (*r->assumed) {
@@ -368,7 +406,7 @@ static enum br_status make_room(struct source *s, struct br_error *err)
         return br_no_memory(err, "the table");
     const size_t cells = find_cells(s);
     for (size_t i = 0; i < r->columns; i++)
-        studied += is_studied(&r->column[i]);
+        studied += is_studied(&r->column[i]) || is_cost(s, &r->column[i]);
     if (s->no_memory || br_numbers_make_room(n, cells, studied * r->groups, err))
         return s->no_memory ? br_no_memory(err, "the table") : err->status;
     for (size_t i = 0; i < r->rows; i++)
@@ -387,6 +425,11 @@ static enum br_status refuse_values(const struct source *s, struct br_error *err
     char name[200], item[210] = "NAME", shell[240], where[80] = "", text[32], advice[400];
     for (size_t i = s->roles.columns; i-- > 0;) {
         const struct br_role_column *c = &s->roles.column[i];
+        if (c->kind == BR_KIND_LOGARITHM && c->role == BR_ROLE_ASIDE) {
+            snprintf(advice, sizeof advice, "%s has logarithms: give the numbers themselves",
+                     quoted(c->label, name));
+            return br_roles_refuse(&s->roles, "found no column of errors", advice, err);
+        }
         if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
             found = c;
     }
@@ -410,6 +453,7 @@ static enum br_status take_all(struct source *s, struct br_error *err)
         .where = s->request->where,
         .errors = s->request->errors,
         .values = s->request->values,
+        .cost = s->request->cost,
         .dimension = s->request->assumed_dimension ? 0 : s->request->dimension,
     };
     if (br_roles_find(&s->fields, &wishes, &s->roles, err) || make_room(s, err))
@@ -417,7 +461,8 @@ static enum br_status take_all(struct source *s, struct br_error *err)
     for (int axis = 0; axis < BR_AXES; axis++)
         if (take_sizes(s, (enum br_axis)axis, err))
             return err->status;
-    if (take_quantities(s, err) || state(s, err) || check_lists(s, err))
+    if (take_quantities(s, false, err) || take_costs(s, err) || state(s, err) ||
+        check_lists(s, err))
         return err->status;
     return s->numbers->quantities ? BR_OK : refuse_values(s, err);
 }
@@ -425,12 +470,19 @@ static enum br_status take_all(struct source *s, struct br_error *err)
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
                              struct br_error *err)
 {
-    struct source s = {.request = q, .numbers = numbers};
+    struct br_orders_request own = *q; /* its lists get the case of the headings */
+    struct source s = {.request = &own, .numbers = numbers};
     err->status = BR_OK;
+    own.errors = q->errors ? strdup(q->errors) : NULL;
+    own.values = q->values ? strdup(q->values) : NULL;
     enum br_status status =
-        br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
+        (q->errors && !own.errors) || (q->values && !own.values)
+            ? br_no_memory(err, "the table")
+            : br_fields_read(q->table, br_orders_path(q), q->observer, &s.fields, err);
     if (!status)
         status = take_all(&s, err);
+    free(own.errors);
+    free(own.values);
     free(s.cell);
     free(s.text);
     br_roles_clear(&s.roles);

@@ -100,6 +100,17 @@ void br_series_sort(struct br_series *s)
         qsort(s->point, s->count, sizeof *s->point, compare);
 }
 
+void br_series_stairs(struct br_series *s)
+{
+    size_t kept = 0;
+    br_series_sort(s);
+    for (size_t i = 0; i < s->count; i++)
+        if (!kept || s->point[i].y < s->point[kept - 1].y)
+            s->point[kept++] = s->point[i];
+    s->count = kept;
+    s->stairs = true;
+}
+
 void br_mark_add(struct br_figure *f, double x, const char *title)
 {
     const struct br_range y = br_extent(last_panel(f), true);

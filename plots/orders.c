@@ -82,6 +82,21 @@ static const char *title_of(const struct br_orders *o, const struct br_quantity_
     return title;
 }
 
+/* Adds the numbers beside a line that are left out by hand. */
+static void add_by_hand(struct br_series *marks, const struct br_orders *o,
+                        const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_numbers_row *on = &o->numbers->row[line->row[0]];
+    const bool alone = o->tied || !o->numbers->column[!line->axis];
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        const struct br_numbers_row *row = &o->numbers->row[i];
+        if (row->out[of->quantity] == BR_FLAG_BY_HAND && isfinite(row->number[of->quantity]) &&
+            (alone || row->z[!line->axis] == on->z[!line->axis]))
+            br_point_add(marks, row->z[line->axis], row->number[of->quantity],
+                         br_flag_name(BR_FLAG_BY_HAND));
+    }
+}
+
 /* The errors, with the line of their order and its band; those of a joint fit, which is no line,
  * are joined. Returns the errors. */
 static const struct br_series *add_line(struct br_figure *f, const struct br_orders *o,
@@ -107,6 +122,7 @@ static const struct br_series *add_line(struct br_figure *f, const struct br_ord
     }
     for (size_t i = c->points; i-- > 0 && fitted;)
         br_point_add(s.area, c->point[i].z, c->point[i].fit.high, NULL);
+    add_by_hand(s.marks, o, of, line);
     br_series_sort(s.marks);
     return s.marks;
 }
@@ -226,6 +242,7 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
         end = fmax(end, at->z[line->axis]);
     }
     const struct br_range values = br_extent(p, true);
+    add_by_hand(marks, o, of, line);
     if (!finest)
         return;
     const double h = finest->z[line->axis], value = finest->number[of->quantity];
@@ -240,33 +257,6 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
         br_point_add(br_series_add(f, BR_PEN_RINGS, "limit, with its 95 %% interval"), 0,
                      limit->value, NULL);
         add_bar(f, 0, 0.015 * end, &values, limit->low, limit->high);
-    }
-}
-
-/* Adds errors over processor time where runs were timed. */
-static void add_costs(struct br_figure *f, const struct br_orders *o)
-{
-    const struct br_numbers *numbers = o->numbers;
-    bool timed = false;
-    for (size_t i = 0; i < numbers->rows; i++)
-        timed |= numbers->row[i].seconds > 0;
-    if (!timed)
-        return;
-    struct br_panel *p = br_panel_add(f, "processor time (s)", "error");
-    p->log_x = p->log_y = true;
-    for (size_t i = 0; i < o->count; i++) {
-        char title[TITLE], name[TITLE];
-        if (quantity_of(o, &o->of[i])->is_value)
-            continue;
-        br_quoted(name, sizeof name, &br_for_markup, title_of(o, &o->of[i], title));
-        struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", name);
-        for (size_t row = 0; row < numbers->rows; row++)
-            if (br_orders_cheapest(o, o->of[i].quantity,
-                                   numbers->row[row].number[o->of[i].quantity]) ==
-                &numbers->row[row])
-                br_point_add(s, numbers->row[row].seconds,
-                             numbers->row[row].number[o->of[i].quantity], NULL);
-        br_series_sort(s);
     }
 }
 
@@ -296,9 +286,11 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
     BR_SAY(f.about, "errors, or values, over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
     say_title(orders, f.title, sizeof f.title);
+    if (orders->numbers->quantity->window) /* of all quantities, but for numbers of sizes */
+        br_append(f.note[0], sizeof f.note[0], "; rows by hand: %s",
+                  orders->numbers->quantity->window);
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
         add_errors(&f, orders, axis);
-    add_costs(&f, orders);
     for (size_t i = 0; i < orders->count; i++)
         for (enum br_axis axis = 0; axis < BR_AXES && f.panels < BR_FIGURE_PANELS; axis++) {
             const struct br_orders_line *line = br_orders_finest(&orders->of[i], axis);

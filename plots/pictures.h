@@ -12,6 +12,7 @@
 
 struct br_orders;
 struct br_check;
+struct br_work_precision;
 
 /* ---- figure.c ---- */
 
@@ -117,8 +118,9 @@ struct br_fitted_series br_fitted_series_add(struct br_figure *figure, const cha
 void br_fitted_point_add(const struct br_fitted_series *series, double x, double y,
                          const char *flag, double fit, double low);
 
-/* Sorts the points by x, then by y. */
+/* Sorts the points by x, then by y; stairs: a Pareto front, of the points whose y falls. */
 void br_series_sort(struct br_series *series);
+void br_series_stairs(struct br_series *series);
 
 /* Call these after the panel's series are filled. br_mark_add draws a line across the last panel at
  * one x, with a title in the key. br_slope_add draws a triangle of an order beside a series of a
@@ -157,6 +159,11 @@ void br_figure_write_script(FILE *out, const struct br_figure *figure);
 /* A panel over the size of elements, and one over that of steps. Each quantity has a line, at the
  * finest size of the other kind. */
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
+
+/* ---- work.c: errors over costs of several programs ---- */
+
+/* A panel for each of the works, which are quantities: each program's own stairs, and the front. */
+struct br_figure br_work_draw(const struct br_work_precision *works, size_t count, const char *caption);
 
 /* ---- check.c: observed orders beside what is expected ---- */
 

@@ -69,13 +69,13 @@ struct trial {
 };
 
 /* Whether a field's law has branches that a step can keep active. A contact without stiffness has
- * no force, but Coulomb's bound has a kink where the tip passes the gap. */
+ * no force, but a bound that follows it has a kink where the tip passes the gap. */
 static bool has_branches(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_contact *contact = &m->scene->contact;
     if (kind == BR_AXIAL)
         return br_contact_pushes(contact) ||
-               (contact->modelled && m->scene->friction.law == BR_COULOMB);
+               (contact->modelled && br_friction_follows_contact(&m->scene->friction));
     return m->scene->friction.law != BR_FRICTIONLESS && !m->method.friction->needs_regularisation;
 }
 

@@ -6,8 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/scene.h"
-
 /* ---- contact ---- */
 
 double br_penetration(const struct br_contact *contact, double displacement)
@@ -91,17 +89,45 @@ const struct br_contact_rule *br_contact_rule_find(const char *name)
 const struct br_iteration br_iteration_defaults = {
     .parameter = 0.5, .tolerance = 1e-10, .most = 10000};
 
+static double given_bound(const struct br_friction *f, double penetration)
+{
+    (void)penetration;
+    return f->coefficient;
+}
+
+static double proportional_bound(const struct br_friction *f, double penetration)
+{
+    return f->coefficient * penetration;
+}
+
+static double proportional_slope(const struct br_friction *f, double penetration)
+{
+    (void)penetration;
+    return f->coefficient;
+}
+
+const struct br_friction_model br_friction_models[] = {
+    [BR_TRESCA] = {"tresca", "Tresca", "constant", given_bound, NULL},
+    [BR_COULOMB] = {"coulomb", "Coulomb", "c_V (u(L) - g)_+", proportional_bound,
+                    proportional_slope},
+};
+_Static_assert(sizeof br_friction_models / sizeof *br_friction_models == BR_FRICTION_LAWS,
+               "a law of friction has no row");
+
+bool br_friction_rubs(const struct br_friction *f)
+{
+    return f->law != BR_FRICTIONLESS;
+}
+
+bool br_friction_follows_contact(const struct br_friction *f)
+{
+    return br_friction_models[f->law].slope != NULL;
+}
+
 double br_friction_bound(const struct br_scene *scene, double penetration)
 {
-    switch (scene->friction.law) {
-    case BR_TRESCA:
-        return scene->friction.coefficient;
-    case BR_COULOMB:
-        return scene->friction.coefficient * penetration;
-    case BR_FRICTIONLESS:
-        break;
-    }
-    return 0;
+    const struct br_friction *f = &scene->friction;
+    return br_friction_rubs(f) ? br_friction_models[f->law].bound(f, penetration) : 0;
 }
 
 /* lambda into [-bound, bound]; NaN stays NaN, and raises no flag. */

@@ -5,8 +5,7 @@
 #define BR_SOLVER_LAWS_H
 
 #include "solver/field.h"
-
-struct br_contact;
+#include "solver/scene.h"
 
 /* ---- contact ---- */
 
@@ -52,6 +51,27 @@ double br_contact_closed_force(const struct br_contact *contact,
 
 /* ---- friction ---- */
 
+/* A law of friction. All of the solver and of study/ asks here; judges have its bound once more, in
+ * tables of their own, and refuse a law that is not in them. */
+struct br_friction_model {
+    const char *name;  /* in scenes */
+    const char *title; /* in a sentence */
+    const char *words; /* its bound, for a person */
+    /* The bound h, N, at the penetration (u - g)_+, m. An adaptive scheme prolongs a contact: the
+     * penetration may be negative, and then the bound, too. */
+    double (*bound)(const struct br_friction *friction, double penetration);
+    /* Its derivative, N/m; NULL where it does not depend on the penetration. Where it does, h is 0
+     * without penetration. */
+    double (*slope)(const struct br_friction *friction, double penetration);
+};
+
+/* By enum br_friction_law; all NULL: no friction. */
+extern const struct br_friction_model br_friction_models[];
+
+/* Whether there is friction, and whether its bound depends on the penetration of the contact. */
+bool br_friction_rubs(const struct br_friction *friction);
+bool br_friction_follows_contact(const struct br_friction *friction);
+
 /* Parameters of rules that iterate. */
 struct br_iteration {
     double parameter; /* relative to 1 / z_tip, which converges fastest */
@@ -94,7 +114,7 @@ const struct br_friction_rule *br_friction_rule_find(const char *name);
 enum br_status br_friction_check(const struct br_friction_rule *rule,
                                  const struct br_iteration *iteration, struct br_error *err);
 
-/* The friction bound h, N, at the penetration (u - g)_+, m. */
+/* The friction bound h, N, at the penetration (u - g)_+, m; 0 without friction. */
 double br_friction_bound(const struct br_scene *scene, double penetration);
 
 /* ---- the limit of the lagged contact ---- */

@@ -49,7 +49,7 @@ double br_method_cost(const struct br_method *m, const struct br_scene *scene, s
         const struct br_field field = br_field_of_scene(scene, kind, n, 1, m->axial_degree);
         const struct br_linear_solver *solver = br_method_solver(m, &field);
         if (scene->field[kind].modelled)
-            cost += solver->cost(solver, &field, sums);
+            cost += br_linear_solver_cost(solver, &field, sums);
     }
     return cost * br_time_scheme_stages(m->scheme);
 }
@@ -62,18 +62,22 @@ const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *sc
     return *rule;
 }
 
-/* Fails with the names of the solvers that have quadratic axial elements. */
-static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
+/* Refuses a solver without the elements of a field, with the names of those that have them. */
+static enum br_status check_elements(const struct br_method *m, enum br_field_kind kind,
+                                     struct br_error *err)
 {
+    const struct br_field field = {.kind = kind, .n = 1, .h = 1, .degree = m->axial_degree};
     char names[256] = "";
+    if (br_linear_solver_for(m->solver, &field))
+        return BR_OK;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        if ((*s)->axial_quadratic) {
+        if (br_linear_solver_for(*s, &field) && !br_linear_solver_chooses(*s)) {
             const size_t used = strlen(names);
             snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", (*s)->name);
         }
-    return br_fail(err, BR_BAD_INPUT,
-                   "solver '%s' has no quadratic axial elements, expected one of %s", solver->name,
-                   names);
+    return br_fail(err, BR_BAD_INPUT, "solver '%s' has no %s%s elements, expected one of %s",
+                   m->solver->name, br_field_is_quadratic(&field) ? "quadratic " : "",
+                   br_field_names[kind], names);
 }
 
 static bool vibrates_undamped(const struct br_scene *s)
@@ -85,7 +89,6 @@ static bool vibrates_undamped(const struct br_scene *s)
 enum br_status br_method_check(const struct br_method *m, const struct br_scene *scene,
                                struct br_error *err)
 {
-    const struct br_field rod = {.kind = BR_AXIAL, .n = 1, .h = 1, .degree = m->axial_degree};
     if (m->axial_degree != 1 && m->axial_degree != 2)
         return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
                        m->axial_degree);
@@ -100,8 +103,9 @@ enum br_status br_method_check(const struct br_method *m, const struct br_scene 
                        "scheme %s with a viscosity of 0, expected more than 0 or another scheme: "
                        "it lets undamped vibration grow",
                        m->scheme->name);
-    if (scene && scene->axial.modelled && rod.degree == 2 && !br_linear_solver_for(m->solver, &rod))
-        return refuse_degree(m->solver, err);
+    for (enum br_field_kind kind = BR_AXIAL; scene && kind <= BR_BENDING; kind++)
+        if (scene->field[kind].modelled && check_elements(m, kind, err))
+            return BR_BAD_INPUT;
     if ((!scene || scene->contact.modelled) && !m->scheme->may_lag && !m->contact->at_new_step)
         return br_fail(err, BR_BAD_INPUT,
                        "contact rule '%s' does not go with time scheme '%s', expected '%s'",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solver/scene.h"
+#include "solver/laws.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -42,11 +42,16 @@ static enum br_status check_laws(const struct br_scene *s, struct br_error *err)
 {
     if (s->contact.modelled && !s->axial.modelled)
         return br_fail(err, BR_BAD_INPUT, "contact needs the axial part, which is not modelled");
-    if (s->friction.law != BR_FRICTIONLESS && !s->bending.modelled)
+    if ((unsigned)s->friction.law >= BR_FRICTION_LAWS ||
+        (br_friction_rubs(&s->friction) && !br_friction_models[s->friction.law].bound))
+        return br_fail(err, BR_BAD_INPUT, "friction law %d has no bound, expected one of 1 to %d",
+                       (int)s->friction.law, BR_FRICTION_LAWS - 1);
+    if (br_friction_rubs(&s->friction) && !s->bending.modelled)
         return br_fail(err, BR_BAD_INPUT, "friction needs the bending part, which is not modelled");
-    if (s->friction.law == BR_COULOMB && !s->contact.modelled)
+    if (br_friction_follows_contact(&s->friction) && !s->contact.modelled)
         return br_fail(err, BR_BAD_INPUT,
-                       "Coulomb friction takes its bound from the contact, which is not modelled");
+                       "%s friction takes its bound from the contact, which is not modelled",
+                       br_friction_models[s->friction.law].title);
     return BR_OK;
 }
 

@@ -62,7 +62,8 @@ struct br_contact {
  * solutions, certificates, energies. They refuse NaN, or pass it on to a check that fails. */
 double br_contact_stiffness(const struct br_contact *contact);
 
-enum br_friction_law { BR_FRICTIONLESS, BR_TRESCA, BR_COULOMB };
+/* What each of them is: br_friction_models in solver/laws.c. */
+enum br_friction_law { BR_FRICTIONLESS, BR_TRESCA, BR_COULOMB, BR_FRICTION_LAWS };
 
 /* Friction (12); the bound h(t) is c_V (Tresca) or c_V (u(L,t) - g)_+ (Coulomb). */
 struct br_friction {
@@ -98,7 +99,8 @@ struct br_scene {
 };
 
 /* Refuses (BR_BAD_INPUT) numbers that are not finite or have a sign that makes
- * no sense, and combinations that mean nothing (Coulomb without contact). */
+ * no sense, and combinations that mean nothing (a bound that follows a contact, without contact).
+ */
 enum br_status br_scene_check(const struct br_scene *scene, struct br_error *err);
 
 /* Function i of all that a scene has, borrowed; NULL from the last one on. */

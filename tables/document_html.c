@@ -56,7 +56,7 @@ static const char style[] =
     ".scroll, .card, pre { max-width: none; overflow: visible; }\n"
     "pre { white-space: pre-wrap; }\n"
     "figure, tr { break-inside: avoid; }\n"
-    "h2, h3, h4 { break-after: avoid; }\n"
+    "h2, h3, h4, summary, thead { break-after: avoid; }\n"
     "::details-content { content-visibility: visible; } }\n";
 
 static bool is_folded(const struct br_document_table *t)

@@ -86,6 +86,14 @@ static bool say_exponential(struct br_document *d, const struct br_orders *o,
     return true;
 }
 
+static bool are_zero(const struct br_case *c)
+{
+    bool zero = c->points > 0;
+    for (size_t i = 0; i < c->points; i++)
+        zero = zero && c->point[i].error == 0;
+    return zero;
+}
+
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -98,6 +106,14 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         return; /* of three values, whose p is said */
     if (none && line && say_exponential(d, o, line, first))
         return;
+    if (none && line && !value && o->numbers->column[axis]->is_degree &&
+        !are_zero(&line->observed)) {
+        br_put_more(d,
+                    "%sexponential convergence not measurable, and errors over degrees have no "
+                    "order",
+                    separator(first));
+        return;
+    }
     const bool alone = !none && (!o->numbers->column[!axis] || o->tied);
     br_put_more(d, "%sorder %s%s%s%s%s%s", separator(first), alone ? "" : "in ",
                 alone ? "" : br_axis_letters[axis], alone ? "" : " ",
@@ -107,6 +123,8 @@ static void say_order(struct br_document *d, const struct br_orders *o,
         br_put_more(d, " (not determined)");
     else if (!none)
         say_meaning(d, o, of, axis, order->value);
+    else if (line && are_zero(&line->observed))
+        br_put_more(d, value ? ", since all values are the same" : ", since all errors are 0");
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))
@@ -176,7 +194,7 @@ static void say_cells_left_out(struct br_document *d, const struct br_orders *o,
                 of->joint.points + of->joint.left_out);
     for (size_t i = 0; i < o->numbers->rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[i];
-        if (of->flag[i] == BR_FLAG_NONE)
+        if (of->flag[i] == BR_FLAG_NONE || of->flag[i] == BR_FLAG_BY_HAND)
             continue;
         name_cell(d, o, row, row, found);
         if (found++ < MOST_CELLS)
@@ -263,12 +281,102 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
         br_put_more(d, ", GCI %.2g %% of the finest value, asymptotic %.3f", 100 * g->fine.index,
                     g->asymptotic);
     }
-    br_put_more(d, ": %s", br_sequence_text(limit->sequence));
+    if (limit->sequence != BR_SEQUENCE_UNKNOWN)
+        br_put_more(d, ": %s", br_sequence_text(limit->sequence));
     const enum br_axis axis = of->line[0].axis;
     /* Of three values, whose p is all that is known. */
     if (of->lines == 1 && isnan(of->answer[axis].order.value) && !o->numbers->assumed &&
         limit->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->value.low))
         say_meaning(d, o, of, axis, g->order);
+}
+
+/* ---- what may help where there is no order ---- */
+
+/* The errors of a line that are numbers, from coarse to fine; returns how many. */
+static size_t numbers_of(const struct br_orders_line *line, const struct br_point **point)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < line->observed.points; i++)
+        if (line->observed.point[i].error > 0 && isfinite(line->observed.point[i].error))
+            point[count++] = &line->observed.point[i];
+    return count;
+}
+
+/* Errors that fall and then grow, or rise and fall. */
+static void say_uneven(struct br_document *d, const struct br_orders_line *line)
+{
+    static const char *const meant[BR_AXES] = {
+        "an explicit scheme whose time step stays does that (refine both), and so does round-off",
+        "a scheme that is not stable for small steps does that, and so does round-off"};
+    const struct br_point *p[BR_MOST_SIZES];
+    const size_t count = numbers_of(line, p);
+    size_t least = 0, rises = 0;
+    for (size_t i = 1; i < count; i++) {
+        least = p[i]->error < p[least]->error ? i : least;
+        rises += p[i]->error > p[i - 1]->error;
+    }
+    if (count < BR_ORDERS_LEAST)
+        br_put_more(d, " An order needs three numbers.");
+    else if (rises && rises == count - 1 - least && p[count - 1]->error > 2 * p[least]->error)
+        br_put_more(d, " From %s on the errors grow, to %.1e: %s.", p[least]->label,
+                    p[count - 1]->error, meant[line->axis]);
+    else if (rises)
+        br_put_more(d, " The errors rise and fall: converge each run further, or measure them over "
+                       "the whole domain and time.");
+}
+
+/* Coarse errors that fall faster than any order are those of steps that are too large. */
+static void say_unstable(struct br_document *d, const struct br_orders_line *line)
+{
+    static const double most = 10; /* an order above it is none */
+    const struct br_point *p[BR_MOST_SIZES], *last = NULL;
+    const size_t count = numbers_of(line, p);
+    for (size_t i = 1; i < count && p[i - 1]->flag == BR_FLAG_COARSE; i++)
+        last = br_point_rate(p[i - 1], p[i]) > most ? p[i] : last;
+    if (last && line->axis == BR_AXIS_TIME)
+        br_put_more(d, " The errors above %s are those of steps beyond a limit of stability.",
+                    last->label);
+}
+
+/* Values that go up and down, or whose differences grow. */
+static void say_restless(struct br_document *d, const struct br_orders *o,
+                         const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const enum br_sequence sequence = line->limits.limit.sequence;
+    double v[BR_MOST_SIZES + 1];
+    size_t count = 0, turns = 0;
+    for (size_t i = 0; i < line->observed.points + 1; i++) {
+        v[count] = o->numbers->row[line->row[i]].number[of->quantity];
+        count += isfinite(v[count]) ? 1 : 0;
+    }
+    for (size_t i = 2; i < count; i++)
+        turns += (v[i] - v[i - 1]) * (v[i - 1] - v[i - 2]) < 0;
+    const double *finest = &v[count - 3];
+    if (sequence == BR_MONOTONE_DIVERGENCE)
+        br_put_more(d, " The differences grow: the sizes are too coarse, or there is no limit, as "
+                       "at a singularity.");
+    else if (turns && (sequence == BR_SEQUENCE_UNKNOWN || sequence == BR_SEQUENCE_ANOMALOUS ||
+                       sequence == BR_OSCILLATORY_DIVERGENCE))
+        br_put_more(d,
+                    " The values go up and down, the finest three between %.6g and %.6g: converge "
+                    "each run further, or average over time.",
+                    fmin(finest[0], fmin(finest[1], finest[2])),
+                    fmax(finest[0], fmax(finest[1], finest[2])));
+}
+
+static void say_advice(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_estimate *order = &of->answer[line->axis].order;
+    const bool none = !isfinite(order->value) || order->low <= 0;
+    if (br_orders_is_grid(o) || isfinite(line->observed.factor.low))
+        return;
+    if (quantity_of(o, of)->is_value)
+        say_restless(d, o, of, line);
+    else if (!none)
+        say_unstable(d, line);
+    else if (!br_orders_stays(line))
+        say_uneven(d, line);
 }
 
 /* What follows from the formal order: an index that trusts it. */
@@ -315,7 +423,11 @@ static void put_number(struct br_document *d, const struct br_orders *o,
     const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
     const double found = r->number[of->quantity];
-    const char *left_out = r->failure || isnan(found) ? br_flag_name(BR_FLAG_FAILED) : "";
+    const bool absent = r->absent && r->absent[of->quantity];
+    const char *left_out = r->failure || (isnan(found) && !absent) ? br_flag_name(BR_FLAG_FAILED)
+                           : !absent && r->out[of->quantity] == BR_FLAG_BY_HAND
+                               ? br_flag_name(BR_FLAG_BY_HAND)
+                               : "";
     char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
     if (number)
         snprintf(prefix, sizeof prefix, "%zu ", number);
@@ -388,37 +500,6 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
                .unit = "MB", .format = "%.3g");
         BR_PUT(d, br_truth(row->cached), .key = "cached", .flags = BR_FILES_ONLY);
     }
-}
-
-/* Puts the cheapest run for each power of ten, from the largest error down to the smallest one. */
-static void put_cheapest_of(struct br_document *d, const struct br_orders *o, size_t quantity)
-{
-    const struct br_numbers *numbers = o->numbers;
-    const struct br_numbers_row *run = NULL;
-    double most = 0;
-    for (size_t i = 0; i < numbers->rows; i++)
-        most = fmax(most, numbers->row[i].number[quantity]);
-    double error = pow(10, floor(log10(most)));
-    for (int digit = 0; digit < 17 && error > 0; digit++) { /* 0: no power of ten is smaller */
-        if (!(run = br_orders_cheapest(o, quantity, error)))
-            break;
-        br_put_row(d);
-        BR_PUT(d, br_text(numbers->quantity[quantity].name), .key = "quantity");
-        BR_PUT(d, br_number(error), .key = "wanted", .heading = "error at most", .format = "%.0e");
-        put_given(d, numbers, (size_t)(run - numbers->row));
-        BR_PUT(d, br_number(run->number[quantity]), .key = "error", .format = "%.3e");
-        BR_PUT(d, br_number(run->seconds), .key = "cpu_seconds", .heading = "processor time",
-               .unit = "s", .format = "%.3g");
-        error /= 10;
-    }
-}
-
-static void put_cheapest(struct br_document *d, const struct br_orders *o)
-{
-    br_put_table(d, "cheapest", "The cheapest run to each digit", 0);
-    for (size_t i = 0; i < o->count; i++)
-        if (!o->numbers->quantity[o->of[i].quantity].is_value)
-            put_cheapest_of(d, o, o->of[i].quantity);
 }
 
 /* Puts an order, and for programs the ends of its interval. */
@@ -533,13 +614,17 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             say_limit(d, o, of, &first);
         say_orders(d, o, of, &first);
         say_next(d, o, of, &first);
+        if (quantity_of(o, of)->window)
+            br_put_more(d, "%srows by hand: %s", separator(&first), quantity_of(o, of)->window);
         br_put_more(d, ".");
         if (br_joint_describes(&of->joint) && of->joint.left_out)
             say_cells_left_out(d, o, of);
         else
             say_left_out(d, of);
-        if (line)
+        if (line) {
             say_formal(d, o, of);
+            say_advice(d, o, of, line);
+        }
     }
     if (o->numbers->taken)
         br_put_answer(d, "Read: %s.", o->numbers->taken);
@@ -672,10 +757,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
 
     put_triples(d, o);
     put_needed(d, o);
-    if (br_orders_costs_differ(o)) {
+    if (br_orders_costs_differ(o))
         put_costs(d, o->numbers);
-        put_cheapest(d, o);
-    }
     for (size_t i = 0; i < o->count; i++)
         put_rows(d, o, i, i + 1, BR_FOR_PROGRAMS);
     if (o->numbers->lefts)

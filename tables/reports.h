@@ -12,6 +12,7 @@ struct br_comparison;
 struct br_estimate;
 struct br_old_check;
 struct br_orders;
+struct br_work_precision;
 
 /* ---- orders ---- */
 
@@ -19,6 +20,12 @@ struct br_orders;
  * NaN where it is not known), and all rows. Without provenance. */
 void br_report_orders(const struct br_orders *orders, const struct br_estimate *growth,
                       const char *caption, struct br_document *d);
+
+/* What a digit costs, of each quantity: the cheapest program to each power of ten, how costs grow,
+ * what failed, and all runs. machine: that of programs that were run; NULL:
+ * none was. Without provenance. */
+void br_report_work(const struct br_work_precision *works, size_t count, const char *machine,
+                    struct br_document *d);
 
 /* ---- check ---- */
 

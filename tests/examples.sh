@@ -94,6 +94,7 @@ shorten() {
     case $line in
     *' --error 1e'* | *' --seconds '*)
         unless 'beamrate trade' ' --methods' ' --help' '--methods euler+implicit,adaptive+p2' ;;
+    *.csv* | *--trust*) ;;
     *) unless 'beamrate trade' ' --n ' ' -n ' '--n 10 --k 0.1,0.05 --methods euler,bdf2' ;;
     esac
     unless 'beamrate extremes' ' --help' ' -h ' --help
@@ -104,10 +105,11 @@ shorten() {
     done
 }
 
-# What the examples take for granted, one scene for --all, and the programs of docs/orders/.
+# What the examples take for granted, one scene for --all, and the files of docs/orders/ and docs/trade/.
 cp "$BEAMRATE_DATA"/study/scenes/example3.yaml few/study/scenes
 (
-    cd files && cp "$BEAMRATE_DATA"/docs/orders/* . && cc -o poisson poisson.c -lm &&
+    cd files && cp "$BEAMRATE_DATA"/docs/orders/* "$BEAMRATE_DATA"/docs/trade/*.csv . &&
+        cc -o poisson poisson.c -lm &&
         beamrate scenes example3 >my_scene.yaml &&
         beamrate check my_scene.yaml --quiet --json old.json && cp old.json orders-of-last-month.json &&
         beamrate study example2 -n 4,8,16 -k 0.1,0.05,0.025 --no-plots --quiet

@@ -68,10 +68,10 @@ check "one version" versions "${said#beamrate }"
 # Nothing of the beam's: no linear algebra, no vectors, no scenes.
 needs() {
     readelf -d "$libraries/libbeamrate.so" | sed -n 's/.*NEEDED.*\[\(lib[a-z]*\).*/\1/p' | sort | tee needed
-    [ "$(grep -vcE '^lib(c|m|gsl|gslcblas|jansson|pthread)$' needed)" -eq 0 ] && grep -q libgsl needed &&
+    [ "$(grep -vcE '^lib(c|m|gsl|gslcblas|jansson|yaml|pthread)$' needed)" -eq 0 ] && grep -q libgsl needed &&
         ! grep -E 'scene|march' "$header"
 }
-check "it needs GSL and Jansson alone" needs
+check "it needs GSL, Jansson and libyaml alone" needs
 
 # ---- in C ----
 
@@ -223,6 +223,11 @@ if "$python" -c 'import numpy' 2>/dev/null; then
     check "its numbers are the program's" same_numbers py.txt
     check "Python refuses, too" refused_in_python
     check "orders in Python" "$python" -W error "$source/tests/library_orders.py"
+    if "$python" -c 'import pytest' 2>/dev/null; then
+        check "the plugin of pytest" "$python" "$source/tests/library_pytest.py" -p beamrate_pytest
+    else
+        skip "the plugin of pytest" "no python3 with pytest"
+    fi
     for module in pandas matplotlib; do
         if "$python" -c "import $module" 2>/dev/null; then
             check "orders in Python, $module" "$python" "$source/tests/library_orders.py" $module
@@ -232,7 +237,7 @@ if "$python" -c 'import numpy' 2>/dev/null; then
     done
 else
     for what in "Python's structs are the header's" "the example in Python" "Python refuses, too" \
-        "orders in Python" "orders in Python, pandas" "orders in Python, matplotlib"; do
+        "orders in Python" "the plugin of pytest" "orders in Python, pandas" "orders in Python, matplotlib"; do
         skip "$what" "no python3 with numpy"
     done
 fi

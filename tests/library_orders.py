@@ -10,6 +10,7 @@ import pickle
 import sys
 import tempfile
 import xml.etree.ElementTree
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -70,11 +71,16 @@ def close(found, expected, tolerance=1e-9):
         raise AssertionError(f"found {found}, expected {expected}")
 
 
+statuses = set()  # of the calls that failed
+
+
 def refused(text, call, kind=(br.BadInput, TypeError, KeyError)):
     try:
         call()
     except kind as error:
         assert text in str(error), (text, str(error))
+        if isinstance(error, br.Error) and error.status is not None:
+            statuses.add((type(error), error.status))
     else:
         raise AssertionError(f"not refused: {text}")
 
@@ -93,10 +99,11 @@ def check_frame(frame):
     again = br.orders(frame.set_index("N"))  # a name of the index is a heading
     assert repr(again) == repr(found)
     found.assert_order(2, quantity="L2")
-    refused("H1: FAIL: the order, 1.000 [", lambda: found.assert_order(2), AssertionError)
+    for text in ("H1: order 1.00", "], expected 2 +- 0.1: FAIL: the order, 1.00"):
+        refused(text, lambda: found.assert_order(2), AssertionError)
     found.assert_order("l2: h 2 +- 0.1; h1 >= 0.9")
     found.assert_order(0.9, tolerance=0)
-    refused("H1: FAIL: the order, 1.000 [", lambda: found.assert_order("L2=2, H1 >= 1.1"), AssertionError)
+    refused("H1: order 1.00", lambda: found.assert_order("L2=2, H1 >= 1.1"), AssertionError)
     refused("at least 1.1", lambda: found.assert_order(1.1, tolerance=0), AssertionError)
     refused("2 columns may be meant", lambda: found.check("2"))
     assert [case.measure for case in found.check("h1 = 1", "L2 >= 1.9").cases] == ["H1", "L2"]
@@ -162,7 +169,7 @@ def check_grid():
     both = br.orders({"h": h, "k": k, "e": h ** 2 + k})
     both.assert_order(2, axis="h")
     both.assert_order(1, axis="k")
-    refused("e: FAIL", lambda: both.assert_order(1, axis="h"), AssertionError)
+    refused("e: order in h 2.00", lambda: both.assert_order(1, axis="h"), AssertionError)
     value = br.orders({"h": h, "k": k, "v": 7 + h ** 2 + k}, values="v")["v"]
     assert [row["in"] for row in value.limits][-2:] == ["k", "h and k"], value.limits
     close(value.limit, value.limits[-1]["limit"])
@@ -238,6 +245,26 @@ def check_left_out():
     close(nothing.constant, 0.25, 1e-6)
 
 
+def check_window():
+    error = [9, 5, 1, 1 / 4, 1 / 16]
+    alone = br.orders(error[2:], n=N[2:])
+    for window in ({"finest": 3}, {"without": [10, 20]}, {"without": ["n=10", 20.0]}, {"finest": 3, "without": 10}):
+        found = br.orders(error, n=N, **window)
+        assert found.order == alone.order and found.order.low == alone.order.low, window
+        assert [row["left_out"] for row in found["error"].rows] == ["by hand"] * 2 + [""] * 3, window
+        assert len(found["error"].points) == 3
+    assert "rows by hand: the 3 finest of 5." in repr(br.orders(error, n=N, finest=3))
+    axes = Axes()
+    br.orders(error, n=N, finest=3).plot(axes)
+    assert ("none", [0.1, 0.05], [9, 5]) in axes.drawn, axes.drawn
+    axes = Axes()
+    br.orders(error, n=N, values=True, without=20).plot(axes)
+    assert ("none", [0.05], [5]) in axes.drawn, axes.drawn
+    refused("finest: found 2", lambda: br.orders(error, n=N, finest=2))
+    refused("finest: found 3.5", lambda: br.orders(error, n=N, finest=3.5))
+    refused("--without: found 8, which is no size there", lambda: br.orders(error, n=N, without=8))
+
+
 def check_plot(make):
     error = 3.0 / N ** 2
     error[0] = 5
@@ -266,6 +293,35 @@ def check_plot(make):
     assert (h, finest, zero) == (1 / 160, 7 + 1 / 160, 0)
     close(half[0], 1.25 / 160, 1e-9)  # 1.25 |difference| / (r^p - 1)
     assert abs(limit - 7) <= min(around) + 1e-9 and "p = 1.00, GCI 0.11 %\nlimit 7" in of_value.title
+
+
+def check_trade(make):
+    sizes = np.array([8, 16, 32, 64])
+    low = {"n": sizes, "l2": 1.0 / sizes ** 2, "seconds": 1e-3 * sizes ** 2}
+    high = {"n": sizes, "l2": 1.0 / sizes ** 4, "seconds": 1e-2 * sizes ** 3}
+    found = br.trade({"low": low, "high": high})
+    assert repr(found).startswith("Cheapest to 1e-3: low, n = 32, 1.02 s; next: high, 5.12 s."), found
+    assert [(row["program"], row["to_error"]) for row in found.cheapest][-1] == ("high", 1e-7)
+    for row, growth, tenth in zip(found.growth, (2, 3), (10, 10 ** 0.75)):
+        close(row["growth"], growth, 1e-6)
+        close(row["tenth"], tenth, 1e-6)
+    close(found.growth[0]["needed"], 1e3, 1e-6)  # n = 1000
+    axes = found.plot(make())
+    assert axes.labels[0] == "front of all" and {"low", "high"} <= set(axes.labels), axes.labels
+    assert axes.drawn[0][1] == sorted(axes.drawn[0][1])
+    refused("table 1: found no column of a cost", lambda: br.trade([{"n": sizes, "l2": 1.0 / sizes}]))
+    refused("low measures l2; other measures h1", lambda: br.trade(
+        {"low": low, "other": {"n": sizes, "h1": 1.0 / sizes, "seconds": sizes ** 2}}))
+    refused("falls from", lambda: br.trade([low | {"seconds": 1.5 / sizes}]))
+    refused("axes: found 1, expected a list of 2", lambda: br.trade([low | {"h1": 2.0 / sizes}]).plot(make()))
+    with tempfile.TemporaryDirectory() as folder:
+        study = Path(folder) / "study.yaml"
+        study.write_text("run: /bin/sh -c 'echo l2 $((10000 / {n} / {n}))e-4'\nn: 10, 20, 40\n"
+                         "read: {l2: 'l2 (.+)'}\n")
+        refused("give trust=True", lambda: br.trade([study]))
+        assert [row["error"] for row in br.trade([study], trust=True).runs] == [100e-4, 25e-4, 6e-4]
+        Path(folder, "zero.csv").write_bytes(b"n\0")
+        refused("found a zero byte", lambda: br.trade([Path(folder) / "zero.csv"]))
 
 
 def check_refusals():
@@ -309,5 +365,8 @@ else:
     check_numbers()
     check_notebook()
     check_left_out()
+    check_window()
     check_plot(Axes)
+    check_trade(Axes)
     check_refusals()
+    assert statuses == {(br.BadInput, 1)}, statuses  # as beamrate.h has it, and no other number

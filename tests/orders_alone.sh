@@ -55,6 +55,20 @@ ends 2 orders run.yaml
 says 'orders run.yaml --trust'
 ends 0 check study.yaml --quiet
 ends 1 check fails.yaml --quiet
+printf 'n,L2,seconds\n10,1e-1,1\n20,2.5e-2,4\n40,6.25e-3,16\n' >costs.csv
+ends 0 trade costs.csv
+says 'Cheapest to 1e-2: costs, n = 40, 16 s.'
+ends 2 trade costs.csv errors.csv
+says 'errors.csv: found no column of a cost'
+ends 2 trade run.yaml
+says 'trade run.yaml --trust'
+BEAMRATE='' ends 2 trade costs.csv --threads 2
+says 'runs are timed one at a time'
+BEAMRATE='' ends 2 trade costs.csv --jobs 2
+says 'runs are timed one at a time'
+BEAMRATE='' ends 2 trade costs.csv example1
+BEAMRATE='' ends 2 trade
+says 'no program is given'
 "$BEAMRATE_ORDERS" check - --quiet <study.yaml || fails "a study of standard input: its table is not found"
 
 # What it alone says: it knows no scene.

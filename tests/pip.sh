@@ -39,6 +39,9 @@ check new/bin/python -c '
 import importlib.metadata, beamrate
 assert importlib.metadata.version("beamrate") == beamrate.__version__
 assert abs(beamrate.orders([4, 1, .25, .0625], n=[1, 2, 4, 8]).order - 2) < 1e-3'
+if new/bin/python -c 'import pytest' 2>/dev/null; then # by the entry point of the wheel
+    check new/bin/python "$source/tests/library_pytest.py"
+fi
 check mv new moved # an environment as a whole
 check moved/bin/beamrate-orders orders errors.csv
 [ "$failures" -eq 0 ]

@@ -17,7 +17,8 @@ static struct br_dimension dimension_of(const struct br_scene *s, const void *me
     const size_t offset = (size_t)((const char *)member - (const char *)s);
     const struct br_scene_key *k = br_scene_keys;
     struct br_unit unit;
-    while (k->offset != offset || (k->law == BR_TRESCA && s->friction.law != BR_TRESCA))
+    while (k->offset != offset ||
+           (k->laws && s->friction.law != BR_FRICTIONLESS && !(k->laws & 1u << s->friction.law)))
         k++;
     br_unit_read(k->unit, &unit);
     return unit.of;

@@ -122,6 +122,37 @@ TEST(test_same_steps)
         }
 }
 
+/* What is listed as a switch is one, of the field that has switched alone; each field goes on from
+ * the branch on which it was. */
+TEST(test_listed_switches)
+{
+    static const char *const scenes[] = {"example2", "chatter", "impact", "release"};
+    size_t all[2] = {0};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct br_scene scene = br_test_bundled(scenes[i]);
+        struct br_method method = br_test_method(NULL, "implicit", NULL);
+        method.scheme = br_time_scheme_find("adaptive");
+        method.tolerance = 1e-6;
+        struct br_march *march = br_test_march(&scene, 10, 4, &method);
+        br_test_advance(march, 4);
+        const struct br_switch *s;
+        const size_t count = br_march_switches(march, &s);
+        enum br_regime last[2] = {BR_REGIME_NONE, BR_REGIME_NONE};
+        bool any[2] = {false, false};
+        for (size_t j = 0; j < count && j < BR_MOST_SWITCHES; j++) {
+            assert_true(s[j].from != s[j].to);
+            assert_true(!any[s[j].kind] || s[j].from == last[s[j].kind]);
+            assert_true(j == 0 || s[j].time >= s[j - 1].time);
+            last[s[j].kind] = s[j].to;
+            any[s[j].kind] = true;
+            all[s[j].kind]++;
+        }
+        br_march_free(march);
+        br_scene_clear(&scene);
+    }
+    assert_true(all[BR_AXIAL] > 1 && all[BR_BENDING] > 1);
+}
+
 /* Without laws at the tip. */
 static struct br_scene smooth_scene(const char *axial, const char *bending)
 {

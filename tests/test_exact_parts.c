@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "reference/exact/inside.h"
+#include "solver/laws.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };
@@ -41,6 +42,16 @@ TEST(test_legendre_tables)
         const double n = (double)k;
         assert_true(p[k] == sqrt(2 * n + 1));
         assert_true(k == 0 || br_legendre_coupling(k) == 0.5 / sqrt(4 * n * n - 1));
+    }
+}
+
+/* The exact reference has its own table of laws: it says of each what the solver says. */
+TEST(test_laws_known)
+{
+    for (enum br_friction_law law = 0; law < BR_FRICTION_LAWS; law++) {
+        const struct br_friction f = {.law = law, .coefficient = 1};
+        assert_true(br_law_is_known(&f));
+        assert_int_equal(br_law_follows(&f), br_friction_follows_contact(&f));
     }
 }
 

@@ -287,6 +287,33 @@ TEST(test_many_curves)
     br_made_report_clear(&m);
 }
 
+/* On a beam of 2 m in 0.5 s: a mesh of n elements stands at 2 m/n, and N steps at 0.5 s/N. */
+TEST(test_sizes_on_axes)
+{
+    struct br_made_report m;
+    size_t panels[BR_AXES] = {0};
+    br_made_report(&m, false);
+    m.scene.length = 2;
+    m.scene.duration = 0.5;
+    for (size_t i = 0; i < 3; i++) {
+        struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+        for (const struct br_panel *p = f.panel; p < f.panel + f.panels; p++) {
+            const bool time = strncmp(p->x_label, "time step", 9) == 0;
+            const double whole = time ? 0.5 : 2;
+            panels[time]++;
+            assert_true(p->top.count > 0);
+            for (size_t j = 0; j < p->top.count; j++)
+                CLOSE(p->top.point[j].x * p->top.point[j].y, whole, 1e-12);
+            const struct br_series *s = p->series[0];
+            for (size_t j = 0; j < s->count; j++)
+                CLOSE(whole / s->point[j].x, round(whole / s->point[j].x), 1e-9);
+        }
+        br_figure_clear(&f);
+    }
+    assert_true(panels[0] > 0 && panels[1] > 0);
+    br_made_report_clear(&m);
+}
+
 /* All pictures of a study in the norm of energy, whose joint fit describes it: slopes, residuals,
  * orders, printed errors. */
 static void print_study(FILE *out)

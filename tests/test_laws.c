@@ -67,6 +67,27 @@ TEST(test_bounds)
     assert_true(br_penetration(&s.contact, 0.2) == 0);
 }
 
+/* The slope is the bound's derivative, none where the bound is constant; with a slope there is no
+ * bound without penetration. A law without a row is refused. */
+TEST(test_models)
+{
+    for (enum br_friction_law law = 1; law < BR_FRICTION_LAWS; law++) {
+        const struct br_friction_model *m = &br_friction_models[law];
+        const struct br_friction f = {.law = law, .coefficient = 3};
+        assert_true(m->name && m->title && m->words && m->bound);
+        assert_true(br_friction_rubs(&f));
+        assert_int_equal(br_friction_follows_contact(&f), m->bound(&f, 1) != m->bound(&f, 2));
+        if (!m->slope)
+            continue;
+        CLOSE(m->slope(&f, 0.5), (m->bound(&f, 0.75) - m->bound(&f, 0.25)) / 0.5, 1e-12);
+        assert_true(m->bound(&f, 0) == 0);
+    }
+    struct br_scene s = br_test_bare();
+    struct br_error err;
+    s.friction.law = 1000000;
+    REFUSED(br_scene_check(&s, &err), BR_BAD_INPUT, "has no bound");
+}
+
 /* (12) or (29), in numbers that neither overflow nor are lost. */
 static double law(const struct br_friction_rule *rule, const struct br_friction_state *s)
 {

@@ -173,7 +173,12 @@ TEST(orders_of_a_table)
     const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
     ENDS(beamrate_orders_check_quantity(&check, orders, 2, &expected, 1, &failure),
          BEAMRATE_BAD_INPUT, "quantity: found 2, expected less than 2");
-    beamrate_orders_free(orders);
+    WORKS(beamrate_orders_check_quantity(&check, orders, 1, &expected, 1, &failure));
+    beamrate_orders_free(orders); /* verdicts outlive their orders, names and all */
+    beamrate_check_case(check, 0, &c);
+    assert_string_equal(c.measure, "v");
+    assert_int_equal(c.verdict, BEAMRATE_FAIL);
+    beamrate_check_free(check);
     static const struct {
         struct beamrate_table table;
         const char *message;
@@ -195,6 +200,34 @@ TEST(orders_of_a_table)
 }
 
 /* The dimension of a mesh, and that it was assumed. */
+TEST(a_trade_of_tables)
+{
+    static const struct beamrate_table tables[] = {
+        {.name = "low.csv", .text = "n,l2,seconds\n8,1e-2,1\n16,2.5e-3,4\n32,6.25e-4,16\n"},
+        {.name = "high.csv", .text = "n,l2,seconds\n8,1e-3,9\n16,1e-4,50\n32,1e-5,300\n"},
+        {.name = "other.csv", .text = "n,h1,seconds\n8,1e-3,9\n16,1e-4,50\n32,1e-5,300\n"}};
+    struct beamrate_trade *trade, *none;
+    const char *json;
+    assert_int_equal(beamrate_trade_read(&trade, tables, 2, NULL, &failure), BEAMRATE_OK);
+    assert_int_equal(beamrate_trade_report(trade, &json, &failure), BEAMRATE_OK);
+    assert_non_null(strstr(json, "Cheapest to 1e-2: low, n = 8, 1 s; next: high, 9 s."));
+    ENDS(beamrate_trade_report(trade, NULL, &failure), BEAMRATE_BAD_INPUT,
+         "found no trade or NULL");
+    ENDS(beamrate_trade_report(NULL, &json, &failure), BEAMRATE_BAD_INPUT,
+         "found no trade or NULL");
+    assert_null(json);
+    ENDS(beamrate_trade_read(&none, tables, 3, NULL, &failure), BEAMRATE_BAD_INPUT,
+         "low measures l2; high measures l2; other measures h1");
+    assert_null(none);
+    ENDS(beamrate_trade_read(&none, tables, 2, "flops", &failure), BEAMRATE_BAD_INPUT,
+         "found no cost 'flops'");
+    ENDS(beamrate_trade_read(&none, NULL, 2, NULL, &failure), BEAMRATE_BAD_INPUT, "found none");
+    ENDS(beamrate_trade_read(NULL, tables, 2, NULL, &failure), BEAMRATE_BAD_INPUT,
+         "place for a handle");
+    beamrate_trade_free(trade);
+    beamrate_trade_free(NULL);
+}
+
 TEST(dimensions_of_a_table)
 {
     static const char text[] = "dofs,e\n1,64\n64,4\n4096,0.25\n262144,0.015625\n";

@@ -71,12 +71,30 @@ static enum beamrate_status read_orders(const void *text, double *number)
     return status;
 }
 
+static enum beamrate_status read_trade(const void *text, double *number)
+{
+    const struct beamrate_table table = {.name = "a.csv", .text = text};
+    struct beamrate_trade *trade;
+    const char *json = NULL;
+    enum beamrate_status status = beamrate_trade_read(&trade, &table, 1, NULL, &failure);
+    assert_int_equal(!trade, status != BEAMRATE_OK);
+    *number = 0;
+    if (!status)
+        status = beamrate_trade_report(trade, &json, &failure);
+    assert_int_equal(!json, status != BEAMRATE_OK);
+    for (const char *c = json; c && *c; c++)
+        *number = fmod(*number * 31 + *c, 1e12);
+    beamrate_trade_free(trade);
+    return status;
+}
+
 /* ---- all of them ---- */
 
 static const int one = 1, none = 0;
 static const struct call calls[] = {
     {"orders of errors", find_orders, &none},
     {"orders of values", find_orders, &one},
+    {"a trade", read_trade, "n,e,seconds\n8,68,1\n16,20,4\n32,8,15\n"},
     {"orders of a table", read_orders, "h,e,f\n8,68,9\n4,20,\n2,8,3\n1,5,1.5\n"},
 };
 

@@ -435,6 +435,27 @@ TEST(test_degrees)
     assert_true(isnan(o.of[0].answer[BR_AXIS_SPACE].order.value));
     br_orders_clear(&o);
     br_numbers_clear(&n);
+    static const char *const few[] = {"p,e\n1,.1\n2,.01\n3,.001\n4,.0001\n",
+                                      "p,e\n2,.1\n4,.001\n6,.00001\n",
+                                      "p,e\n1,.1\n2,.01\n3,.001\n4,1e-4\n5,1e-5\n6,1e-6\n"};
+    for (size_t i = 0; i < sizeof few / sizeof *few; i++) {
+        char *text = strdup(few[i]);
+        struct br_orders_request r = {.path = q.path, .table = text};
+        MUST(br_orders_read(&r, &n, &err));
+        MUST(br_orders_find(&n, 0, &o, &err));
+        const struct br_estimate digits = o.of[0].line[0].observed.factor;
+        assert_true(digits.low > 3 && digits.low < 9.5 && digits.high > 10.5 && digits.high < 25);
+        br_orders_clear(&o);
+        br_numbers_clear(&n);
+        free(text);
+    }
+    q.table = (char *)"p,e\n1,1\n2,.0625\n3,.0123\n4,.0039\n5,.0016\n6,.00077\n"; /* p^-4 */
+    MUST(br_orders_read(&q, &n, &err));
+    MUST(br_orders_find(&n, 0, &o, &err));
+    assert_true(isnan(o.of[0].line[0].observed.factor.value));
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+    q.table = (char *)"degree,e\n0,8e-1\n1,1.01e-1\n2,1.25e-2\n3,1.56e-3\n4,1.96e-4\n";
     MUST(br_expectations_read("e: h exponential 8 +- 0.5", 0, &q.expectation, &q.expectations,
                               &err));
     MUST(br_orders_read(&q, &n, &err));
@@ -956,6 +977,11 @@ TEST(test_grammar)
     assert_string_equal(e[2].quantity, "drag x");
     assert_int_equal(e[2].axis, BR_AXIS_TIME);
     free(e);
+    e = NULL; /* names that begin alike are two */
+    count = 0;
+    MUST(br_expectations_read("l2: h 2 +- .1; l2v: h 1 +- .1; l: h 1 +- .1", 0, &e, &count, &err));
+    assert_int_equal(count, 3);
+    free(e);
     refuse_expectation("", "expected an order, as in 'l2: h 2 +- 0.1'");
     refuse_expectation("l2", "found 'l2', expected an error's name and ':'");
     refuse_expectation(": h 2 +- .1", "expected an error's name");
@@ -1043,6 +1069,15 @@ static int verdict_of(const char *table, const char *values, const char *expecte
     return verdict;
 }
 
+/* An error that is just where the errors are expected to stop stops there. */
+TEST(test_down_to)
+{
+    static const char table[] = "n,l2\n10,1e-2\n20,2.5e-3\n40,6.25e-4\n80,1.5625e-4\n160,1e-4\n";
+    char why[768];
+    assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 1e-4", why), BR_PASS);
+    assert_int_not_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 0.99e-4", why), BR_PASS);
+}
+
 /* Rates from 1.9997 to 2.0000 are no reason to refine where 3 is expected. */
 TEST(test_advice)
 {
@@ -1056,6 +1091,26 @@ TEST(test_advice)
     if (!strstr(why, "Take a tolerance of 0.01, or give errors with more digits") ||
         strstr(why, "add a row"))
         fail_msg("%s", why);
+    static const struct {
+        const char *table, *values, *expect, *says;
+    } rows[] = {
+        {"dt,e\n.1,.2\n.05,.05\n.025,.0125\n.0125,30\n.00625,1e8\n", NULL, "e: k 2 +- 0.1",
+         "the errors fall, but from dt = 0.025 on they grow, to 1.00e+08: a scheme that is not"},
+        {"dt,e\n.1,1e9\n.05,3e4\n.025,.0125\n.0125,.0031\n.00625,.00078\n", NULL, "e: k 2 +- 0.1",
+         "the coarse ones are beyond a limit of stability"},
+        {"n,e\n8,.1\n16,.04\n32,.022\n64,.04\n128,.003\n", NULL, "e: h 2 +- 0.1",
+         "the errors rise and fall: converge each run further"},
+        {"n,e\n8,1.31\n16,.92\n32,1.22\n64,.85\n128,1.3\n", "e", "e: h 2 +- 0.1",
+         "the differences rise and fall: converge each run further"},
+        {"n,e\n8,1\n16,1.1\n32,1.3\n64,1.7\n128,2.5\n", "e", "e: h 2 +- 0.1",
+         "the differences grow with each finer size: there is no convergence"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_not_equal(verdict_of(rows[i].table, rows[i].values, rows[i].expect, why),
+                             BR_PASS);
+        if (!strstr(why, rows[i].says))
+            fail_msg("%zu: %s", i, why);
+    }
 }
 
 /* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
@@ -1681,4 +1736,126 @@ TEST(test_means_of_two)
         CLOSE(line->observed.point[i].rounding, 0, 0);
     br_orders_clear(&orders);
     br_numbers_clear(&numbers);
+}
+
+/* ---- windows by hand ---- */
+
+static enum br_status read_window(const char *text, const char *values, double finest,
+                                  const char *without, struct br_numbers *numbers)
+{
+    const struct br_orders_request q = {.path = (char *)"t.csv",
+                                        .table = (char *)text,
+                                        .values = (char *)values,
+                                        .dimension = 2,
+                                        .assumed_dimension = true,
+                                        .finest = finest,
+                                        .without = (char *)without};
+    return br_orders_read(&q, numbers, &err);
+}
+
+static void same_estimate(const struct br_estimate *a, const struct br_estimate *b)
+{
+    assert_memory_equal(a, b, sizeof *a);
+}
+
+/* What a window shows is, to the bit, what a table of its rows alone shows. */
+static void window_is(const char *all, const char *alone, const char *values, double finest,
+                      const char *without, const char *named)
+{
+    struct br_numbers n[2];
+    struct br_orders o[2];
+    MUST(read_window(all, values, finest, without, &n[0]));
+    MUST(read_window(alone, values, 0, NULL, &n[1]));
+    assert_string_equal(n[0].quantity->window, named);
+    assert_null(n[1].quantity->window);
+    assert_true(n[0].rows > n[1].rows); /* those left out are shown */
+    for (int i = 0; i < 2; i++)
+        MUST(br_orders_find(&n[i], 2, &o[i], &err));
+    assert_int_equal(o[0].of->lines, o[1].of->lines);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        same_estimate(&o[0].of->answer[axis].order, &o[1].of->answer[axis].order);
+    for (size_t l = 0; l < o[0].of->lines; l++) {
+        const struct br_orders_line *a = &o[0].of->line[l], *b = &o[1].of->line[l];
+        assert_int_equal(a->observed.points, b->observed.points);
+        same_estimate(&a->observed.order, &b->observed.order);
+        same_estimate(&a->limits.limit.value, &b->limits.limit.value);
+        if (values)
+            CLOSE(a->limits.gci.fine.index, b->limits.gci.fine.index, 0);
+    }
+    same_estimate(&o[0].of->limit.value, &o[1].of->limit.value);
+    same_estimate(&o[0].of->joint.order[0], &o[1].of->joint.order[0]);
+    same_estimate(&o[0].of->joint.order[1], &o[1].of->joint.order[1]);
+    for (int i = 0; i < 2; i++) {
+        br_orders_clear(&o[i]);
+        br_numbers_clear(&n[i]);
+    }
+}
+
+TEST(test_windows)
+{
+    static const char errors[] = "n,l2\n2,0.93\n4,0.31\n8,0.99\n16,0.0101\n32,0.0025\n64,0.00062\n";
+    static const char drag[] = "h,drag\n1,1.31\n.5,1.21\n.25,1.05\n.125,1.015\n.0625,1.004\n";
+    char grid[600] = "h,k,l2\n", part[600] = "h,k,l2\n";
+    window_is(errors, "n,l2\n16,0.0101\n32,0.0025\n64,0.00062\n", NULL, 3, NULL,
+              "the 3 finest of 6");
+    window_is(errors, "n,l2\n2,0.93\n4,0.31\n16,0.0101\n32,0.0025\n64,0.00062\n", NULL, 0, "8",
+              "all but 8");
+    window_is(errors, "n,l2\n4,0.31\n16,0.0101\n32,0.0025\n64,0.00062\n", NULL, 4, "n=8, 2",
+              "the 4 finest of 4, without n=8, 2");
+    window_is(drag, "h,drag\n.25,1.05\n.125,1.015\n.0625,1.004\n", "drag", 3, NULL,
+              "the 3 finest of 5");
+    window_is(drag, "h,drag\n1,1.31\n.5,1.21\n.25,1.05\n.0625,1.004\n", "drag", 0, "1/8",
+              "all but 1/8");
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) {
+            char row[60];
+            snprintf(row, sizeof row, "%g,%g,%.10g\n", exp2(-i), exp2(-j),
+                     0.3 * exp2(-2 * i) + 0.7 * exp2(-j));
+            strcat(grid, row);
+            strcat(part, i >= 1 && j >= 1 ? row : "");
+        }
+    window_is(grid, part, NULL, 4, NULL, "the 4 finest of 5 h and of 5 k");
+    window_is(grid, part, NULL, 0, "h=1,k=1", "all but h=1,k=1");
+}
+
+TEST(test_refused_windows)
+{
+    static const char text[] = "n,k,l2\n2,.1,1\n4,.1,.25\n8,.1,.06\n2,8,2\n4,8,1.2\n8,8,1.1\n"
+                               "2,1,2\n4,1,1.2\n8,1,1.1\n";
+    static const struct {
+        double finest;
+        const char *without, *message;
+    } rows[] = {
+        {0, "7",
+         "t.csv: --without: found 7, which is no size there, expected one of: n = 2, n = 4"},
+        {0, "8", "--without: 8 is a size of n and of k, expected n=8 or k=8"},
+        {0, "k=2", "found k=2, which is no size there"},
+        {0, "fine", "found 'fine', expected sizes, like 8 or 8,16 or n=8"},
+        {0, "m=8", "found m=8, which is no size there"},
+        {0, "nan", "found 'nan', expected sizes"},
+        {4, NULL, "--finest: found 4, expected at most the 3 sizes that have numbers"},
+        {0, "n=2,k=1", "rows by hand: of l2 2 sizes would be left, expected at least 3"},
+        {0, "k=.1,k=8", "rows by hand: of l2 1 size would be left, expected at least 2"},
+    };
+    struct br_numbers n;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        REFUSED(read_window(text, NULL, rows[i].finest, rows[i].without, &n), BR_BAD_INPUT,
+                rows[i].message);
+        br_numbers_clear(&n);
+    }
+}
+
+static enum br_status whole_window(const void *text, struct br_error *why)
+{
+    struct br_numbers numbers;
+    const enum br_status status = read_window(text, NULL, 3, "8", &numbers);
+    if (status)
+        *why = err;
+    br_numbers_clear(&numbers);
+    return status;
+}
+
+TEST(test_windows_without_memory)
+{
+    br_test_without_memory(whole_window, "n,l2\n4,1\n8,.3\n16,.09\n32,.02\n64,.006\n", 20);
 }

@@ -298,6 +298,8 @@ TEST(test_refused)
         {"no-such-program-here {n}", "'no-such-program-here' is no program"},
         {"/no/such/program {n}", "'/no/such/program' is no program"},
         {"/tmp {n}", "'/tmp' is no program"},
+        {"sh -x lost.sh {n}", "sh runs 'lost.sh', and no file is there (in /"},
+        {"/bin/sh lost_{n}.sh", "/bin/sh runs 'lost_4.sh', and no file"},
         {"/etc/passwd {n}", "'/etc/passwd' is no program: it is not executable; chmod +x"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -625,6 +627,24 @@ TEST(test_cost)
     AT_MOST(numbers.row[2].bytes, 9e8);
     if (!isnan(numbers.row[0].bytes))
         AT_MOST(numbers.row[0].bytes, 2e7);
+}
+
+/* What the system does for a run is its work, too: the shell tells how much that was. */
+TEST(test_cost_of_the_system)
+{
+    static const double one[] = {4};
+    write_script("system", "dd if=/dev/zero of=/dev/null bs=1M count=3000 2>/dev/null\n"
+                           "times >$0.times; awk -F '[ms ]+' 'NR == 2 { print \"used=\" 60 * ($1 "
+                           "+ $3) + $2 + $4 }' $0.times\necho err=1");
+    struct br_orders_request p = br_orders_request_default();
+    MUST(br_orders_request_reading(&p, "err", "err=(.*)", &err));
+    MUST(br_orders_request_reading(&p, "used", "used=(.*)", &err));
+    p.command = strdup(command_of("system", "{cells}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){
+        br_resolution_column_find("cells"), memcpy(malloc(sizeof one), one, sizeof one), 1};
+    run(&p);
+    AT_MOST(0.9 * numbers.row[0].number[1], numbers.row[0].seconds);
+    br_orders_request_clear(&p);
 }
 
 /* The memory of a cell is that of the run that takes the most, here its second. */

@@ -3,7 +3,7 @@
  * would never end, is refused. */
 #include "solver/function.h"
 #include "solver/scene.h"
-#include "study/estimate/cost_estimate.h"
+#include "study/grid/costs.h"
 
 #include <malloc.h>
 #include <math.h>
@@ -115,4 +115,59 @@ TEST(test_refused)
         MUST(br_check_ahead(&o, &w, &err));
         assert_int_equal(br_test_warning(&w, BR_WARN_LONG) != NULL, longer);
     }
+}
+
+/* Two marches, a study by a fine run: what is added up, and which march is the dearest. */
+TEST(test_work)
+{
+    struct br_scene scene = br_test_bare();
+    const struct br_method method = br_method_default();
+    struct br_method chooses = method;
+    chooses.scheme = br_time_scheme_find("adaptive");
+    const struct br_planned_march march[] = {
+        {.scene = &scene, .method = &method, .n = 100, .steps = 1000},
+        {.scene = &scene, .method = &method, .n = 400, .steps = 2000},
+        {.scene = &scene, .method = &method, .n = 200, .steps = 100},
+        {.scene = &scene, .method = &chooses, .n = 800, .steps = 10},
+    };
+    struct br_costs alone = {.alone = true}, together = {.together = true};
+    double seconds = 0, bytes = 0;
+    for (size_t i = 0; i < 4; i++) {
+        br_costs_add_march(&alone, &march[i]);
+        br_costs_add_march(&together, &march[i]);
+        seconds += i < 3 ? br_march_seconds(&march[i]) : 0;
+        bytes += br_march_bytes(&march[i]);
+    }
+    assert_int_equal(alone.marches, 4);
+    assert_int_equal(alone.untimed, 1); /* it chooses its steps */
+    assert_int_equal(alone.dearest.n, 400);
+    CLOSE(alone.seconds, seconds, 1e-14 * seconds);
+    assert_true(alone.steps == alone.seconds && alone.longest == br_march_seconds(&march[1]));
+    assert_true(alone.bytes == br_march_bytes(&march[3]));
+    CLOSE(together.bytes, bytes, 1e-14 * bytes);
+    assert_true(br_costs_seconds(&alone, 8) == alone.seconds);
+    assert_true(br_costs_seconds(&together, 2) == together.longest); /* no shorter than one */
+    together.longest = 0;
+    CLOSE(br_costs_seconds(&together, 2), seconds / 2, 1e-14 * seconds);
+
+    const size_t n[] = {100, 400}, steps[] = {10, 20};
+    const struct br_study study = {.scene = &scene,
+                                   .method = method,
+                                   .reference_method = method,
+                                   .reference_kind = &br_reference_fine,
+                                   .reference = {1600, 40},
+                                   .n = n,
+                                   .steps = steps,
+                                   .n_count = 2,
+                                   .k_count = 2};
+    struct br_costs work = {0};
+    br_costs_add_study(&work, &study);
+    seconds = br_reference_seconds(&study);
+    for (size_t c = 0; c < 4; c++)
+        seconds += br_cell_seconds(&study, c);
+    assert_int_equal(work.marches, 5);
+    assert_int_equal(work.dearest.n, 1600);
+    CLOSE(work.seconds, seconds, 1e-14 * seconds);
+    assert_true(work.steps > 0 && work.steps < work.seconds); /* errors are found, too */
+    assert_true(work.longest == br_reference_seconds(&study));
 }

@@ -9,6 +9,7 @@
 
 #include "base/words.h"
 #include "study/fit/theory.h"
+#include "study/grid/sweep.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/verify/check.h"
@@ -237,5 +238,62 @@ TEST(test_random)
         assert_int_equal(t->of[BR_FAIL], 0);
         assert_true(4 * t->of[BR_PASS] >= 3 * stated);
         assert_true(3 * stated >= t->silent);
+    }
+}
+
+/* ---- each place where a force may start suddenly ---- */
+
+/* The order in k of sdirk2 on 4 elements, against a fine run on these. */
+static double rate_in_k(const struct br_scene *scene, struct br_theory *theory)
+{
+    static const size_t n[] = {4}, steps[] = {80, 160};
+    struct br_error err = {0};
+    struct br_study s = br_test_study(scene, &br_reference_fine, 1, n, 2, steps);
+    s.norm = &br_norm_energy; /* of velocities, where the start is seen */
+    s.method = br_test_method(NULL, "implicit", NULL);
+    s.method.scheme = br_time_scheme_find("sdirk2");
+    s.reference_method = s.method;
+    s.reference = (struct br_resolution){4, 5120};
+    *theory = br_theory_of(&s, BR_PART_TOTAL, BR_AXIS_TIME);
+    MUST(br_study_run(&s, 1, 1, NULL, &err));
+    const double rate = log2(s.cell[0].error[0] / s.cell[1].error[0]);
+    br_study_clear(&s);
+    return rate;
+}
+
+/* A force that starts gently keeps the order 2 of velocities; one that starts suddenly, or with a
+ * rate, may cost it, wherever it is, and theory states none. */
+TEST(test_sudden_forces)
+{
+    static const char *const start[] = {"sin(3*t)^2", "cos(t)", "sin(3*t)"};
+    static const char scene_of[] = "title: T\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+                                   "%s:\n  stiffness: 30 %s\n  viscosity: 0.3 %s\n  %s: %s [%s]\n";
+    static const struct {
+        const char *field, *stiffness, *viscosity, *key, *unit;
+    } rows[] = {
+        {"axial", "N", "N s", "load", "N/m"},
+        {"axial", "N", "N s", "tip_force", "N"},
+        {"bending", "N m^2", "N m^2 s", "load", "N/m"},
+        {"bending", "N m^2", "N m^2 s", "tip_force", "N"},
+        {"bending", "N m^2", "N m^2 s", "tip_moment", "N m"},
+    };
+    for (size_t i = 0; i < 3 * (sizeof rows / sizeof *rows); i++) {
+        const size_t how = i % 3;
+        struct br_error err = {0};
+        struct br_scene scene;
+        struct br_theory theory;
+        char text[500];
+        snprintf(text, sizeof text, scene_of, rows[i / 3].field, rows[i / 3].stiffness,
+                 rows[i / 3].viscosity, rows[i / 3].key, start[how], rows[i / 3].unit);
+        MUST(br_scene_parse("force.yaml", text, &(struct br_scene_asked){0}, &scene, &err));
+        const double rate = rate_in_k(&scene, &theory);
+        if (how) {
+            assert_true(isnan(theory.order));
+            assert_non_null(strstr(theory.reason, "forces start suddenly"));
+            /* the beam's mesh has the faster modes, which show it */
+            assert_true(how == 2 || i < 6 || rate < 1.8);
+        } else
+            assert_true(theory.order == 2 && fabs(rate - 2) < 0.1);
+        br_scene_clear(&scene);
     }
 }

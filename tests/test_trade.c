@@ -53,7 +53,7 @@ static const struct {
 TEST(test_choices)
 {
     struct br_trial t[MADE];
-    bool front[MADE];
+    struct br_work_point point[MADE];
     for (size_t i = 0; i < MADE; i++)
         t[i] = (struct br_trial){
             .named = &pair[made[i].named],
@@ -64,22 +64,25 @@ TEST(test_choices)
             .own = 2 * made[i].own,
             .end = made[i].end,
         };
-    br_trials_front(t, MADE, front);
+    br_trials_points(t, MADE, pair, point);
+    br_work_front(point, MADE);
     for (size_t i = 0; i < MADE; i++)
-        if (front[i] != made[i].front)
-            fail_msg("trial %zu: found %d, expected %d", i, front[i], made[i].front);
+        if (point[i].front != made[i].front)
+            fail_msg("trial %zu: found %d, expected %d", i, point[i].front, made[i].front);
     for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
-        const size_t found = br_trials_cheapest(
-            t, MADE, choices[i].target, choices[i].only < 2 ? &pair[choices[i].only] : NULL);
+        const size_t found =
+            br_work_cheapest(point, MADE, choices[i].target,
+                             choices[i].only < 2 ? (size_t)choices[i].only : SIZE_MAX, SIZE_MAX);
         if (found != choices[i].cheapest)
             fail_msg("to %g: found %zu, expected %zu", choices[i].target, found,
                      choices[i].cheapest);
     }
-    assert_int_equal(br_trials_cheapest(t, 0, 1, NULL), 0);
+    assert_int_equal(br_work_cheapest(point, 0, 1, SIZE_MAX, SIZE_MAX), 0);
     CLOSE(br_trade_digits_per_second(&t[7]), 4.0 / 9, 1e-9);
     assert_true(isnan(br_trade_digits_per_second(&t[8])));
     t[0].scale = 0; /* no relative error of a solution that is zero */
-    assert_int_equal(br_trials_cheapest(t, 1, 1, NULL), 1);
+    br_trials_points(t, 1, pair, point);
+    assert_int_equal(br_work_cheapest(point, 1, 1, SIZE_MAX, SIZE_MAX), 1);
     CLOSE(br_trade_target(0), 1e-2, 1e-14);
     CLOSE(br_trade_target(BR_TRADE_DIGITS - 1), 1e-10, 1e-22);
 }
@@ -327,8 +330,11 @@ TEST(test_forecast)
     MUST(br_trade_estimate(t, &err));
     assert_int_equal(t->forecast.planned, t->count);
     assert_int_equal(t->forecast.left, 0);
-    for (size_t i = 0; i + 2 < 4 * 3; i += 3) /* two methods on two meshes */
+    for (size_t i = 0; i + 2 < 4 * 3; i += 3) { /* two methods on two meshes */
         assert_true(t->trial[i + 2].estimated > 2 * t->trial[i].estimated);
+        CLOSE(br_trial_work(&scene, &t->trial[i + 2]), 1000 * br_trial_work(&scene, &t->trial[i]),
+              1e-12);
+    }
     t->request.seconds = 0.3 * t->forecast.seconds;
     MUST(br_trade_estimate(t, &err));
     assert_true(t->forecast.left > 0 && t->forecast.planned > 1);

@@ -137,6 +137,22 @@ TEST(test_bundled_scenes)
     br_scene_list_free(names, count);
 }
 
+/* A meter that gives no number for one field: that is the worst of the step, whichever field the
+ * other number is of. */
+TEST(test_no_number)
+{
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct watched w = {.scene = br_test_bundled("example2")};
+        w.method = method_of(br_time_schemes[0], NULL, &w.scene);
+        struct br_scene other = w.scene;
+        other.field[kind].stiffness = NAN;
+        assert_true(start(&w, 8, 10, &(struct told){.energy = &other}));
+        advance(&w, 10);
+        assert_true(isnan(w.worst));
+        finish(&w);
+    }
+}
+
 /* A switch on a time level, as at 0.8 s of Example 3: no step is left that is so short that its
  * force is noise. A load that jumps just behind a switch: the search for that jump does not begin
  * with such a step, either. */

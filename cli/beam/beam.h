@@ -19,9 +19,9 @@ size_t br_beam_add_options(const struct br_command *command, struct br_option ro
 /* The default of an option of the method. */
 const char *br_beam_standard(const struct br_option *row, char text[BR_OPTION_TEXT]);
 
-/* Names and numbers of a method must be valid, whatever a scene says; --k and --steps exclude each
- * other. Fails with BR_BAD_INPUT. */
-enum br_status br_beam_check_options(const struct br_options *options, struct br_error *err);
+/* Names and numbers of a method must be valid, whatever a scene says; --steps becomes --k, and the
+ * two exclude each other. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_beam_check_options(struct br_options *options, struct br_error *err);
 
 /* ---- the documentation and the completions, made from commands, options and registries ---- */
 

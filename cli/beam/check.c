@@ -72,7 +72,7 @@ static enum br_status check_accepted(const struct scenes *s, struct br_error *er
 static enum br_status begin(void *self, struct br_error *err)
 {
     const struct scenes *s = self;
-    struct br_cost_estimate work = {.together = true};
+    struct br_costs work = {.together = true};
     if (check_accepted(s, err))
         return err->status;
     for (const struct br_scene_check *c = s->check; c < s->check + s->count; c++) {
@@ -81,7 +81,7 @@ static enum br_status begin(void *self, struct br_error *err)
             const size_t cases = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
             for (size_t h = 0; h < cases; h++) {
                 const struct br_study study = br_check_study(c, (enum br_verify_kind)kind, h);
-                br_cost_estimate_add_study(&work, &study);
+                br_costs_add_study(&work, &study);
             }
         }
     }

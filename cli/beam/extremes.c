@@ -151,9 +151,8 @@ static enum br_status open_scenes(struct extremes_run *r, struct part *p, struct
             return err->status;
         p->scene[p->scenes] = &opened->scene;
     }
-    const struct br_asked_steps steps = br_asked_steps(r->options);
-    return p->scenes ? br_asked_steps_make(&steps, p->scene[0], &p->steps, &p->step_count, err)
-                     : BR_OK;
+    const char *k = r->options->text[BR_OPT_K];
+    return p->scenes ? br_steps_read(k, p->scene[0], &p->steps, &p->step_count, err) : BR_OK;
 }
 
 static enum br_status read_request(struct extremes_run *r, struct br_error *err)

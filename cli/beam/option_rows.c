@@ -60,9 +60,10 @@ static const struct br_option rows[] = {
      OWN({BR_FOR_TABLES, .standard = "0.01,0.005,0.002,0.001,0.0005,0.0001", .more = divides},
          {BR_FOR_STUDY, .standard = "T/100,T/200,T/400,T/800", .more = divides},
          {BR_FOR_RUN, .standard = "T/1000", .argument = "TIME"})},
-    {BR_OPT_STEPS, "steps", 0, "LIST", "numbers of time steps, instead of --k", NULL,
+    {BR_OPT_STEPS, "steps", 0, "LIST", "numbers of time steps: 10,20 is --k T/10,T/20", NULL,
      BR_TAKES_COUNTS, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
-     OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
+     OWN({BR_FOR_RUN, .argument = "COUNT", .help = "number of time steps: 10 is --k T/10",
+          .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
      "the reference solution of the errors: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
      .words = &br_reference_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
@@ -104,14 +105,13 @@ static const struct br_option rows[] = {
      "goal: the cheapest way to this relative error, like 1e-3 or 5%", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_TRADE,
      .more = "The norm of the error, divided by the norm of the solution. Without -n, -k, "
-             "--steps, --tolerance and --methods all meshes, steps and time schemes are "
-             "tried."},
+             "--steps, --tolerance and --methods all meshes, steps and time schemes are tried."},
     {BR_OPT_SECONDS, "seconds", 0, "S",
-     "goal: the smallest error within so many seconds, set-up included", NULL, BR_TAKES_NUMBER,
+     "goal: the smallest error within so many seconds, set-up included", NULL, BR_TAKES_SECONDS,
      BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
      .more = "One of --error and --seconds, for one scene."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
-     "10", BR_TAKES_NUMBER, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE,
+     "10", BR_TAKES_SECONDS, BETWEEN(0, 1e10), .commands = BR_FOR_TRADE,
      .more = "A run or march that will surely take longer is stopped early, and the report says "
              "so."},
 
@@ -137,8 +137,9 @@ static const struct br_option rows[] = {
     {BR_OPT_ALL, "all", 0, NULL, "all bundled scenes", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_TRADE,
      OWN({BR_FOR_TRADE, .help = "try all trials (default: what takes about 10 s a scene)",
-          .more = "The most expensive trials are left out, unless -n, -k, --steps or --tolerance "
-                  "choose the trials."})},
+          .more =
+              "The most expensive trials are left out, unless -n, -k, --steps or --tolerance choose "
+              "the trials."})},
 
     /* scenes */
     {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,
@@ -146,6 +147,10 @@ static const struct br_option rows[] = {
      .more =
          "A valid scene, with the meaning, unit and default of each key. An existing file is not "
          "replaced."},
+
+    {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
+     WHOLE(0, 4096), .commands = BR_FOR_TRADE,
+     .more = "Of the errors: trials, and programs, are timed one at a time."},
 
     /* another scene */
     {BR_OPT_SET, "set", 0, "KEY=VALUE",
@@ -187,10 +192,28 @@ const char *br_beam_standard(const struct br_option *row, char text[BR_OPTION_TE
     return f->standard ? f->standard : br_method_field_text(f, &usual, text);
 }
 
-enum br_status br_beam_check_options(const struct br_options *o, struct br_error *err)
+/* --steps 10,20 is --k T/10,T/20. */
+static enum br_status take_steps(struct br_options *o, struct br_error *err)
 {
-    struct br_method method = br_method_default();
-    if (br_option_given(o, BR_OPT_K) && br_option_given(o, BR_OPT_STEPS))
+    enum { WIDTH = 24 };
+    const size_t count = o->count[BR_OPT_STEPS];
+    if (br_option_given(o, BR_OPT_K))
         return br_fail(err, BR_BAD_INPUT, "--k and --steps are given, expected one of the two");
+    char *text = br_allocate(count, WIDTH);
+    if (!text)
+        return br_no_memory(err, "the options");
+    for (size_t i = 0; i < count; i++)
+        br_append(text, count * WIDTH, "%sT/%zu", i ? "," : "",
+                  o->whole[BR_OPT_STEPS] ? o->whole[BR_OPT_STEPS][i]
+                                         : (size_t)o->number[BR_OPT_STEPS][i]);
+    o->given[BR_OPT_K] = o->text[BR_OPT_K] = text;
+    return BR_OK;
+}
+
+enum br_status br_beam_check_options(struct br_options *o, struct br_error *err)
+{
+    if (br_option_given(o, BR_OPT_STEPS) && take_steps(o, err))
+        return err->status;
+    struct br_method method = br_method_default();
     return br_method_read(&o->given[BR_OPT_METHOD], BR_METHOD_OPTION, &method, err);
 }

@@ -180,10 +180,10 @@ static enum br_status prepare(struct scene_run *r, struct br_error *err)
 {
     if (open_scene(r, err) || predict(r, err) || open_files(r, err))
         return err->status;
-    struct br_cost_estimate work = {.alone = true};
+    struct br_costs work = {.alone = true};
     const struct br_planned_march one = planned(&r->plan);
     br_print_warnings("", &r->warnings);
-    br_cost_estimate_add_march(&work, &one);
+    br_costs_add_march(&work, &one);
     br_session_announce(r->session, &work);
     return BR_OK;
 }

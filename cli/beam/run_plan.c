@@ -129,13 +129,12 @@ enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_option
         .scene = &plan->opened.scene,
         .method = br_method_default(),
         .n = (size_t)br_option_number(o, BR_OPT_N, 0),
-        .steps = (size_t)br_option_number(o, BR_OPT_STEPS, 0),
         .check = br_option_given(o, BR_OPT_CHECK),
     };
     if (br_method_read(given, BR_METHOD_OPTION, &q->method, err) ||
         br_method_check_used(given, BR_METHOD_OPTION, methods, 1, err) ||
         read_fields(br_option_text(o, BR_OPT_FIELDS), &q->wanted, err) ||
-        (!q->steps && br_read_step("--k", br_option_text(o, BR_OPT_K), q->scene, &q->steps, err)) ||
+        br_read_step("--k", br_option_text(o, BR_OPT_K), q->scene, &q->steps, err) ||
         make_levels(plan, o, err) || br_model_select(q->scene, q->wanted, &plan->marched, err))
         return err->status;
     if (br_option_given(o, BR_OPT_OUT))

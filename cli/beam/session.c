@@ -58,13 +58,13 @@ char *br_session_scene(const struct br_session *s, const char *name)
 /* A shorter forecast is not measured, and not printed, s. */
 static const double worth_measuring = 1, worth_printing = 3;
 
-void br_session_announce(const struct br_session *s, const struct br_cost_estimate *w)
+void br_session_announce(const struct br_session *s, const struct br_costs *w)
 {
-    struct br_cost_estimate here = *w;
-    if (s->quiet || !(br_cost_estimate_seconds(w, br_threads(s->threads)) >= worth_measuring))
+    struct br_costs here = *w;
+    if (s->quiet || !(br_costs_seconds(w, br_threads(s->threads)) >= worth_measuring))
         return;
-    br_cost_estimate_measure(&here);
-    const double seconds = br_cost_estimate_seconds(&here, br_threads(s->threads));
+    br_costs_measure(&here);
+    const double seconds = br_costs_seconds(&here, br_threads(s->threads));
     if (!(seconds >= worth_printing))
         return;
     fprintf(stderr, "%zu march%s, about %.2g s, %.2g GB", w->marches, w->marches == 1 ? "" : "es",

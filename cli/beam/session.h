@@ -5,8 +5,8 @@
 
 #include "cli/session.h"
 #include "solver/scene.h"
-#include "study/estimate/cost_estimate.h"
 #include "study/estimate/warnings.h"
+#include "study/grid/costs.h"
 #include "study/trade/split.h"
 #include "study/trade/trial.h"
 #include "study/verify/check.h"
@@ -33,7 +33,7 @@ char *br_session_scene(const struct br_session *session, const char *name);
 
 /* Prints a sentence on standard error before work of some seconds: "24 marches, about 40 s, 0.3
  * GB". With --quiet nothing is printed. */
-void br_session_announce(const struct br_session *session, const struct br_cost_estimate *work);
+void br_session_announce(const struct br_session *session, const struct br_costs *work);
 
 /* ---- warnings on standard error, before marches begin (warn.c) ---- */
 

@@ -33,7 +33,7 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
         .n = q->n,
         .n_count = q->n_count,
     };
-    if (br_asked_steps_make(&q->steps, scene, &w->steps, &study->k_count, err))
+    if (br_steps_read(q->k, scene, &w->steps, &study->k_count, err))
         return err->status;
     if (q->n_count * study->k_count > BR_MOST_ROWS)
         return br_fail(err, BR_BAD_INPUT,
@@ -155,10 +155,10 @@ void br_studies_clear(struct br_studies *r)
 
 /* ---- before the marches ---- */
 
-void br_studies_estimate_cost(const struct br_studies *r, struct br_cost_estimate *work)
+void br_studies_estimate_cost(const struct br_studies *r, struct br_costs *work)
 {
     for (size_t h = 0; h < r->cases; h++)
-        br_cost_estimate_add_study(work, study_of(r, h, 0));
+        br_costs_add_study(work, study_of(r, h, 0));
 }
 
 enum br_status br_studies_check_memory(const struct br_studies *r, struct br_error *err)

@@ -42,7 +42,7 @@ enum br_status br_studies_prepare(struct br_studies *studies, const struct br_st
                                   bool with_exact, struct br_error *err);
 void br_studies_clear(struct br_studies *studies);
 
-void br_studies_estimate_cost(const struct br_studies *studies, struct br_cost_estimate *work);
+void br_studies_estimate_cost(const struct br_studies *studies, struct br_costs *work);
 
 /* Checks the memory of the studies, which march at once. */
 enum br_status br_studies_check_memory(const struct br_studies *studies, struct br_error *err);

@@ -34,7 +34,7 @@ static enum br_status run_jobs(const struct br_study_request *request, struct br
 {
     struct br_studies r = {request, session, .jobs = jobs};
     const bool writes = session->writes;
-    struct br_cost_estimate work = {.together = true};
+    struct br_costs work = {.together = true};
     bool failed = br_studies_prepare(&r, job, with_exact, err);
     if (!failed) {
         br_studies_estimate_cost(&r, &work);

@@ -55,7 +55,7 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     *r = (struct br_study_request){
         .n = o->whole[BR_OPT_N],
         .n_count = o->count[BR_OPT_N],
-        .steps = br_asked_steps(o),
+        .k = o->text[BR_OPT_K],
         .norms = o->count[BR_OPT_NORM],
         .method = br_method_default(),
     };
@@ -89,17 +89,14 @@ enum br_status br_read_step(const char *option, const char *text, const struct b
     return BR_OK;
 }
 
-enum br_status br_asked_steps_make(const struct br_asked_steps *asked, const struct br_scene *scene,
-                                   size_t **steps, size_t *count, struct br_error *err)
+enum br_status br_steps_read(const char *k, const struct br_scene *scene, size_t **steps,
+                             size_t *count, struct br_error *err)
 {
-    const size_t given = asked->count, most = given ? given : asked->k ? strlen(asked->k) + 1 : 0;
-    *steps = most ? br_allocate(most, sizeof **steps) : NULL;
-    *count = given;
-    if (most && !*steps)
+    *steps = k ? br_allocate(strlen(k) + 1, sizeof **steps) : NULL;
+    *count = 0;
+    if (k && !*steps)
         return br_no_memory(err, "the time steps");
-    if (given)
-        memcpy(*steps, asked->steps, given * sizeof **steps);
-    for (const char *rest = given ? NULL : asked->k; rest; rest = strchr(rest, ',')) {
+    for (const char *rest = k; rest; rest = strchr(rest, ',')) {
         rest += *rest == ',';
         if (br_read_step("--k", rest, scene, &(*steps)[*count], err))
             return err->status;

@@ -7,24 +7,10 @@
 #include "study/grid/study.h"
 #include "study/scene/named_method.h"
 
-/* The time steps that are asked for: what they are, depends on the scene. Borrowed from the
- * options. */
-struct br_asked_steps {
-    const char *k;       /* of --k, or its default; NULL: neither */
-    const size_t *steps; /* count of them, of --steps; they come first */
-    size_t count;
-};
-
-static inline struct br_asked_steps br_asked_steps(const struct br_options *o)
-{
-    return (struct br_asked_steps){o->text[BR_OPT_K], o->whole[BR_OPT_STEPS],
-                                   o->count[BR_OPT_STEPS]};
-}
-
-/* Their numbers in a scene: *steps (out, *count values) is owned by the caller; NULL: there are
- * none. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
-enum br_status br_asked_steps_make(const struct br_asked_steps *asked, const struct br_scene *scene,
-                                   size_t **steps, size_t *count, struct br_error *err);
+/* The numbers of steps of --k, or its default, in a scene (k NULL: neither): *steps (out, *count
+ * values) is owned by the caller; NULL: there are none. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_steps_read(const char *k, const struct br_scene *scene, size_t **steps,
+                             size_t *count, struct br_error *err);
 
 /* The number of steps for the time step in text. Fails with BR_BAD_INPUT, naming the option. */
 enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
@@ -32,7 +18,7 @@ enum br_status br_read_step(const char *option, const char *text, const struct b
 
 struct br_study_request {
     size_t *n, n_count; /* of -n; borrowed from the options */
-    struct br_asked_steps steps;
+    const char *k;      /* of --k, or its default; NULL: neither; borrowed from the options */
     const struct br_reference *reference_kind; /* NULL: not given */
     size_t reference_n;
     const char *reference_k; /* as br_read_step takes it; borrowed from the options */

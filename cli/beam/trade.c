@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* beamrate trade SCENE...: what a digit costs. */
+/* beamrate trade SCENE|PROGRAM...: what a digit costs. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +10,7 @@
 #include "cli/beam/study_request.h"
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "cli/trade.h"
 #include "plots/beam/pictures.h"
 #include "study/scene/file.h"
 #include "study/scene/units.h"
@@ -43,7 +44,7 @@ static const double usual_seconds = 10;
 static enum br_status set_request(const struct trade_run *r, struct item *item,
                                   struct br_error *err)
 {
-    static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
+    static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_TOLERANCES,
                                                BR_OPTIONS}; /* given lists are tried as they are */
     const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
@@ -95,7 +96,7 @@ static enum br_status lay_out(const struct trade_run *r, struct item *item, stru
     size_t steps = 0;
     if (set_request(r, item, err))
         return err->status;
-    if (br_asked_steps_make(&r->study.steps, scene, &item->steps, &steps, err))
+    if (br_steps_read(r->study.k, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
     item->trade.goal = r->goal;
     if (r->study.methods.count)
@@ -126,7 +127,7 @@ static enum br_status check_used(const struct trade_run *r, bool split, struct b
         fixed |= !methods->list[i].method.scheme->adaptive;
         adaptive |= methods->list[i].method.scheme->adaptive;
     }
-    static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPT_STEPS, BR_OPTIONS};
+    static const enum br_option_id of_fixed[] = {BR_OPT_STEPS, BR_OPT_K, BR_OPTIONS};
     const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerance"
                           : fixed                                            ? NULL
                                   : br_first_given(o, of_fixed);
@@ -186,10 +187,13 @@ static enum br_status read_scenes(struct trade_run *r, struct br_error *err)
     const struct br_options *o = r->options;
     if (!(r->item = br_allocate(o->words, sizeof *r->item)))
         return br_no_memory(err, "the scenes");
-    for (size_t i = 0; i < o->words; i++) {
+    for (size_t w = 0; w < o->words; w++) {
+        const size_t i = r->items;
         const struct br_scene *scene = &r->item[i].opened.scene;
+        if (br_is_trade_source(o->word[w]))
+            continue;
         r->items++;
-        if (br_opened_scene_read(&r->item[i].opened, r->session, o->word[i], err))
+        if (br_opened_scene_read(&r->item[i].opened, r->session, o->word[w], err))
             return err->status;
         for (size_t j = 0; j < i; j++)
             if (strcmp(r->item[j].opened.scene.name, scene->name) == 0)
@@ -343,7 +347,7 @@ static enum br_status lay_out_split(struct trade_run *r, struct br_error *err)
         (r->study.methods.count == 0 && /* default: the first scheme */
          br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
         check_used(r, true, err) || read_scenes(r, err) ||
-        br_asked_steps_make(&r->study.steps, &r->item->opened.scene, &r->item->steps, &steps, err))
+        br_steps_read(r->study.k, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
     r->split =
         br_allocate(methods->count * meshes * (steps + 1) * (o->count[BR_OPT_TOLERANCES] + 1),
@@ -389,14 +393,126 @@ static bool split(struct trade_run *r, struct br_error *err)
 
 /* ---- the command ---- */
 
+/* ---- beside other programs ---- */
+
+/* The trials of a method as the numbers of a program: bounds of their errors, in the norm's unit.
+ */
+static enum br_status make_numbers(const struct br_trade *t, const struct br_named_method *method,
+                                   struct br_numbers *n, struct br_error *err)
+{
+    static const struct br_resolution_column tolerance = {"tolerance", "tolerance", BR_AXIS_TIME,
+                                                          .is_size = true};
+    const struct br_norm *norm = t->request.norm;
+    const double duration = t->request.scene->duration;
+    size_t rows = 0;
+    for (size_t i = 0; i < t->count; i++)
+        rows += t->trial[i].named == method && t->trial[i].end != BR_TRIAL_LEFT;
+    if (br_numbers_make_room(n, rows, 2, err) ||
+        br_numbers_add_quantity(n, norm->name, norm->unit, false, err) ||
+        br_numbers_add_quantity(n, "cpu", NULL, false, err))
+        return err->status;
+    n->quantities = n->costs = 1;
+    n->column[BR_AXIS_SPACE] = br_resolution_column_find("n");
+    n->column[BR_AXIS_TIME] =
+        method->method.scheme->adaptive ? &tolerance : br_resolution_column_find("k");
+    struct br_numbers_row *row = n->row;
+    for (const struct br_trial *trial = t->trial; trial < t->trial + t->count; trial++) {
+        if (trial->named != method || trial->end == BR_TRIAL_LEFT)
+            continue;
+        const double k =
+            method->method.scheme->adaptive ? trial->tolerance : duration / (double)trial->at.steps;
+        row->given[BR_AXIS_SPACE] = (double)trial->at.n;
+        row->z[BR_AXIS_SPACE] = 1 / (double)trial->at.n;
+        row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] = k;
+        *row->number = br_trial_bound(trial) * trial->scale;
+        row->number[1] = br_trial_seconds(trial);
+        row->failure = trial->failure.status ? strdup(trial->failure.message) : NULL;
+        row++;
+    }
+    br_numbers_sort(n);
+    return BR_OK;
+}
+
+/* Of the methods that are named; else of those that are the cheapest ones to some error. */
+static bool is_shown(const struct trade_run *r, const struct br_trade *t, size_t method)
+{
+    bool shown = r->study.methods.count;
+    for (size_t i = 0; i < BR_TRADE_DIGITS && !shown; i++)
+        shown = t->best[i] < t->count && t->trial[t->best[i]].named == &t->methods.list[method];
+    return shown;
+}
+
+/* Scenes and programs: what digits cost in all. */
+static enum br_status beside(struct trade_run *r, struct br_error *err)
+{
+    size_t most = 1, count = 0;
+    for (size_t i = 0; i < r->items; i++)
+        most += r->item[i].trade.methods.count;
+    struct br_work_source *source = br_allocate(most, sizeof *source);
+    struct br_numbers *numbers = br_allocate(most, sizeof *numbers);
+    enum br_status status = source && numbers ? BR_OK : br_no_memory(err, "the trials");
+    for (size_t i = 0; i < r->items && !status; i++) {
+        const struct br_trade *t = &r->item[i].trade;
+        for (size_t m = 0; m < t->methods.count && !status; m++) {
+            if (!is_shown(r, t, m))
+                continue;
+            struct br_work_source *s = &source[count];
+            s->numbers = &numbers[count++];
+            s->path = t->request.scene->name;
+            snprintf(s->name, sizeof s->name, "%.100s %s", s->path, t->methods.list[m].name);
+            status = make_numbers(t, &t->methods.list[m], &numbers[count - 1], err);
+        }
+    }
+    if (!status)
+        status = br_trade_sources(r->options, r->session, source, count, err);
+    for (size_t i = 0; i < count; i++)
+        br_numbers_clear(&numbers[i]);
+    free(numbers);
+    free(source);
+    return status;
+}
+
+/* Refuses what programs do not use. */
+static enum br_status check_programs(const struct br_options *o, size_t programs,
+                                     struct br_error *err)
+{
+    static const enum br_option_id never[] = {BR_OPT_THREADS, BR_OPT_ERROR, BR_OPT_SECONDS,
+                                              BR_OPT_SPLIT, BR_OPTIONS},
+                                   of_scenes[] = {BR_OPT_N,          BR_OPT_K,
+                                                  BR_OPT_STEPS,      BR_OPT_REFERENCE,
+                                                  BR_OPT_NORM,       BR_OPT_METHODS,
+                                                  BR_OPT_TOLERANCES, BR_OPT_TIME_LIMIT,
+                                                  BR_OPT_ALL,        BR_OPT_SET,
+                                                  BR_OPTIONS},
+                                   of_programs[] = {BR_OPT_COST, BR_OPT_TRUST, BR_OPTIONS};
+    const char *name = br_first_given(o, programs ? never : of_programs);
+    if (name && !programs)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--%s: found scenes alone, expected a study file or a table", name);
+    if (name && strcmp(name, "threads") == 0)
+        return br_fail(err, BR_BAD_INPUT, "--threads: runs are timed one at a time");
+    if (!name && programs == o->words)
+        name = br_first_given(o, of_scenes);
+    return name ? br_fail(err, BR_BAD_INPUT, "--%s: programs do not use it", name) : BR_OK;
+}
+
 static bool trade(struct trade_run *r, struct br_error *err)
 {
+    size_t programs = 0;
+    for (size_t i = 0; i < r->options->words; i++)
+        programs += br_is_trade_source(r->options->word[i]);
+    if (check_programs(r->options, programs, err))
+        return true;
+    if (programs == r->options->words)
+        return br_trade_sources(r->options, r->session, NULL, 0, err);
     if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err) ||
         check_norm(r, err) || check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))
             return true;
+    if (programs)
+        return run_all(r, err) || check(r, err) || beside(r, err);
     return br_session_open(r->session, err) || run_all(r, err) || write_all(r, err) ||
            check(r, err);
 }
@@ -419,8 +535,8 @@ static enum br_status run(const struct br_options *options, struct br_session *s
 const struct br_command br_command_trade = {
     .bit = BR_FOR_TRADE,
     .name = "trade",
-    .arguments = "SCENE...",
-    .title = "what a digit costs: errors against seconds of many methods",
+    .arguments = "SCENE|PROGRAM...",
+    .title = "what a digit costs: errors against seconds of many methods, or of any programs",
     .about =
         "Measures the relative error of many methods at many resolutions, and the CPU seconds of "
         "their marches in one thread. The results are work-precision diagrams with the Pareto "
@@ -430,14 +546,16 @@ const struct br_command br_command_trade = {
         "paper's table. With --error or --seconds the answer is the way to take: the cheapest one "
         "to that error, or the most accurate one within these seconds, and command lines that "
         "march it.",
-    .more = "For several scenes there is a summary, too. A goal is searched from the cheapest "
-            "trials on, until nothing cheaper is left, then on a finer grid around the best two "
-            "methods; meshes and steps that are given are tried as they are. If no trial reaches "
-            "it, the exit code is 3.",
+    .more = BR_TRADE_ABOUT
+    " Scenes may stand beside programs that measure the error in their norm, by "
+    "the name of the norm. For several scenes there is a summary, too. A goal is searched from the cheapest "
+    "trials on, until nothing cheaper is left, then on a finer grid around the best two "
+    "methods; meshes and steps that are given are tried as they are. If no trial reaches "
+    "it, the exit code is 3.",
     .example =
         {"beamrate trade example2 --methods euler+lagged,euler+implicit -n 25,100 -k 0.1,0.01",
          "beamrate trade example1 example3 --methods bdf2,adaptive -n 50 -k 0.05,0.01 --time-limit 2",
-         "beamrate trade example2 --error 1e-3",
+         "beamrate trade example2 --error 1e-3", "beamrate trade fd.csv sparse4.csv",
          "beamrate trade example2 --split --methods euler+lagged,euler+implicit -k 0.1,0.01"},
     .least_words = 1,
     .most_words = BR_MOST_WORDS,

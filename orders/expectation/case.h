@@ -94,6 +94,7 @@ struct br_case {
     double low99, high99;      /* the order's 99 % interval: what lies outside is excluded */
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
+    const char *window;        /* rows by hand, "the 3 finest of 6"; NULL: all; borrowed */
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */
     double constant;  /* the largest of the finest five used points'; NaN: none */
     const char *open; /* why there is no verdict, and what would show an order; NULL; borrowed */

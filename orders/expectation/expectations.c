@@ -264,7 +264,7 @@ static enum br_status observe(const struct br_orders *o, const struct br_quantit
         if (p->flag != BR_FLAG_FAILED && p->error > 0)
             p->flag = out ? out : p->error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     }
-    return br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
+    return br_orders_observe(o->numbers->column[line->axis], BR_VERIFY_LEAST_POINTS, c, err);
 }
 
 /* A further case of a check; NULL: no memory. */

@@ -45,14 +45,22 @@ static const struct br_point *first_failed(const struct br_case *c)
     return NULL;
 }
 
+/* The note begins with the window. */
+static void begin_note(struct br_case *c)
+{
+    snprintf(c->note, sizeof c->note, "%s%s", c->window ? "rows by hand: " : "",
+             c->window ? c->window : "");
+}
+
 static void list_left_out(struct br_case *c)
 {
+    const char *between = c->note[0] ? "; left out: " : "left out: ";
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
         if (!p->flag)
             continue;
-        br_append(c->note, sizeof c->note, "%s%s (%s", c->note[0] ? ", " : "left out: ", p->label,
-                  br_flag_name(p->flag));
+        br_append(c->note, sizeof c->note, "%s%s (%s", between, p->label, br_flag_name(p->flag));
+        between = ", ";
         if (isfinite(p->error))
             br_append(c->note, sizeof c->note, ", error %.1e", p->error);
         br_append(c->note, sizeof c->note, ")");
@@ -206,17 +214,39 @@ static struct trend trend_of(const struct br_case *c)
     return t;
 }
 
+/* Says that errors without an order do not fall from size to size; false: they do. */
+static bool advise_uneven(struct br_case *c)
+{
+    size_t rises = 0;
+    for (size_t i = 1; i < c->points; i++)
+        rises += c->point[i].error > c->point[i - 1].error;
+    if (!rises || c->of_grid || br_order_determined(&c->order))
+        return false;
+    br_append(c->reason, sizeof c->reason, "; the %s %s",
+              c->point[0].z_against > 0 ? "differences" : "errors",
+              rises + 1 == c->points ? "grow with each finer size: there is no convergence"
+                                     : "rise and fall: converge each run further, or measure over "
+                                       "the whole domain and time");
+    return true;
+}
+
 /* Says what would settle the verdict: which way the orders from size to size go decides it. */
 static void advise(struct br_case *c)
 {
     const struct br_expectation *e = &c->expected;
     const struct trend t = trend_of(c);
     const double few = 0.05 * e->order; /* errors of few digits leave an order so far off */
+    static const double no_order = 10;  /* errors that fall faster are those of unstable steps */
+    if (advise_uneven(c))
+        return;
     if (t.nearer)
-        br_append(c->reason, sizeof c->reason,
-                  "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
-                  "asymptotic. Start finer, or refine further",
-                  t.last, t.first);
+        br_append(
+            c->reason, sizeof c->reason,
+            "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are %s. Start "
+            "finer, or refine further",
+            t.last, t.first,
+            t.first > no_order && c->kind == BR_VERIFY_TIME ? "beyond a limit of stability"
+                                                            : "not asymptotic");
     else if (t.stays && !t.outside && enough(c) < few)
         br_append(
             c->reason, sizeof c->reason,
@@ -305,6 +335,25 @@ static const struct br_point *turning_point(const struct br_case *c)
     return clear ? last - 2 : NULL;
 }
 
+/* The errors fall, then grow; without an order from the smallest one on. */
+static void conclude_growth(struct br_case *c, const struct br_point *from)
+{
+    char text[64], order[96] = "the errors fall";
+    const struct br_point *last = c->point + c->points - 1;
+    const bool known = br_order_determined(&c->order);
+    if (known)
+        snprintf(order, sizeof order, "the order is %s",
+                 br_order_text(&c->order, text, sizeof text));
+    while (!known && from > c->point && from[-1].error > 0 && from->error > from[-1].error)
+        from--;
+    conclude(c, BR_FAIL, "%s, but from %s on %s grow, to %.2e", order, from->label,
+             known ? "the errors" : "they", last->error);
+    if (c->may_miss) /* all schemes of the beam are implicit */
+        br_append(c->reason, sizeof c->reason, ": %s does that, and so does round-off",
+                  c->kind == BR_VERIFY_TIME ? "a scheme that is not stable for small steps"
+                                            : "an explicit scheme whose time step stays");
+}
+
 static void decide_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
@@ -314,8 +363,7 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
     const bool falls = first->error < before->error;
     br_order_text(&c->order, text, sizeof text);
     if (blows_up(c)) {
-        conclude(c, BR_FAIL, "the order is %s, but from %s on the errors grow, to %.2e", text,
-                 first->label, c->point[c->points - 1].error);
+        conclude_growth(c, first);
         return;
     }
     conclude(c, BR_INCONCLUSIVE, "the order is %s, but from %s on the errors %s, %.2e", text,
@@ -344,7 +392,9 @@ static void name_row(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
-    if (c->may_miss && !c->open && !trend_of(c).stays)
+    if (c->window && !trend_of(c).stays)
+        br_append(c->reason, sizeof c->reason, "; leave out fewer rows");
+    else if (c->may_miss && !c->open && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
                   lost                  ? c->point[0].label
                   : last->z_against > 0 ? "all others" /* the finest value has no difference */
@@ -478,7 +528,8 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
 {
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->margin = NAN;
-    c->reason[0] = c->note[0] = '\0';
+    c->reason[0] = '\0';
+    begin_note(c);
     c->low99 = c->high99 = NAN;
     c->factor = (struct br_estimate){NAN, NAN, NAN};
     c->law = NULL;
@@ -525,7 +576,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
         if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
             c->point[i].flag = BR_FLAG_NONE;
     }
-    c->note[0] = '\0';
+    begin_note(c);
     choose_points(c);
 }
 
@@ -546,8 +597,7 @@ void br_case_decide(struct br_case *c)
     else if (c->open)
         conclude(c, BR_INCONCLUSIVE, "%s", c->open);
     else if (turns)
-        conclude(c, BR_FAIL, "the errors fall, but from %s on they grow, to %.2e", turns->label,
-                 c->point[c->points - 1].error);
+        conclude_growth(c, turns);
     else if (beyond) {
         decide_beyond(c, beyond);
         decide_constant(c);
@@ -559,6 +609,8 @@ void br_case_decide(struct br_case *c)
     }
     if (c->verdict == BR_INCONCLUSIVE)
         name_row(c);
+    if (c->verdict != BR_PASS && c->window)
+        br_append(c->reason, sizeof c->reason, " (rows by hand: %s)", c->window);
 }
 
 /* ---- all of a check ---- */

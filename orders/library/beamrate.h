@@ -118,6 +118,8 @@ struct beamrate_table {
     double formal;       /* theoretical order of values; 0: 2 */
     const char *columns; /* what columns are, as of --column: "dx=h, 3=l2"; NULL: not stated */
     const char *where;   /* the rows of one case, as of --where: "method=P1"; NULL: each case */
+    size_t finest;       /* so many of the finest sizes have a part, as of --finest; 0: all */
+    const char *without; /* sizes that have none, as of --without: "8,16"; NULL: none */
 };
 
 /* Reads the table and finds the orders of each of its columns of numbers. *orders (out): owned by
@@ -162,6 +164,28 @@ int beamrate_orders_point(const struct beamrate_orders *orders, size_t quantity,
  * BEAMRATE_NO_MEMORY. */
 enum beamrate_status beamrate_orders_report(struct beamrate_orders *orders, const char **json,
                                             struct beamrate_error *err);
+
+/* ---- what a digit costs ---- */
+
+/* Errors over costs of several programs. */
+struct beamrate_trade;
+
+/* Reads the sources: tables with a column of a cost, and texts of study files, whose commands it
+ * runs, one at a time, again and again until the median of their times is known: read them before.
+ * cost: as of --cost; NULL: the first that all have. *trade (out): owned by the caller; it keeps no
+ * text of the sources. Fails with BEAMRATE_BAD_INPUT where the programs have no error, or no cost,
+ * in common, and as beamrate_orders_read. */
+enum beamrate_status beamrate_trade_read(struct beamrate_trade **trade,
+                                         const struct beamrate_table *sources, size_t count,
+                                         const char *cost, struct beamrate_error *err);
+void beamrate_trade_free(struct beamrate_trade *trade); /* accepts NULL */
+
+/* The whole report, as `beamrate trade` writes it in JSON: the answer in words, and the tables of
+ * the cheapest programs, of how costs grow, and of all runs. *json (out): as of
+ * beamrate_orders_report.
+ */
+enum beamrate_status beamrate_trade_report(struct beamrate_trade *trade, const char **json,
+                                           struct beamrate_error *err);
 
 /* ---- verdicts ---- */
 

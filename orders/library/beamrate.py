@@ -69,7 +69,8 @@ _Case = _struct("s:study s:measure d:expected d:tolerance e:order d:constant d:m
 _Fit = _struct("i:describes e:p e:c_h e:q e:c_k e:r d:misfit z:points", e=_Estimate)
 _Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
 _Order = _struct("e:order d:constant z:points z:used e:limit", e=_Estimate)
-_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal s:columns s:where")
+_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal s:columns s:where "
+                 "z:finest s:without")
 _Answer = _struct("s:quantity i:values i:refined e:order s:open", e=_Estimate)
 _OrderPoint = _struct("d:size d:error d:rate e:fit s:left_out", e=_Estimate)
 _Expectation = _struct("i:axis d:order d:tolerance d:down_to")
@@ -259,6 +260,19 @@ class Quantity:
         return f"{self.name}: " + (", ".join(orders) or "no order")
 
 
+def said(quantity, case):
+    """"l2: order 1.00 [0.99, 1.01], expected 2 +- 0.1"."""
+    o, letter = case.order, {"space": " in h", "time": " in k"}[case.study] if len(quantity._axes) > 1 else ""
+    half = (o.high - o.low) / 2
+    digits = 4 if half < 5e-4 else 3 if half < 5e-3 else 2
+    low, high = round(o.low, digits), round(o.high, digits)
+    widen = 0 if low < high else 10 ** -digits  # no interval has the width zero
+    found = "no order" if math.isnan(half) else \
+        f"order{letter} {o:.{digits}f} [{low - widen:.{digits}f}, {high + widen:.{digits}f}]"
+    band = f"{case.expected:g} +- {case.tolerance:g}" if case.tolerance > 0 else f"at least {case.expected:g}"
+    return f"{quantity.name}: {found}, expected {band}"
+
+
 class Orders(_Handle):
     """Orders of numbers of any program: errors, or values whose limit is not known. See orders().
 
@@ -355,7 +369,7 @@ class Orders(_Handle):
         else:
             checks = [self.check((q._axis(axis), order, tolerance, down_to), quantity=q.name)
                       for q in (self.quantities if quantity is None else [self[quantity]])]
-        failures = [f"{case.measure}: {case.verdict}: {case.reason}" for check in checks
+        failures = [f"{said(self[case.measure], case)}: {case.verdict}: {case.reason}" for check in checks
                     for case in check.cases if case.verdict != "PASS"]
         if failures:
             raise AssertionError("\n".join(failures))
@@ -380,12 +394,21 @@ class Orders(_Handle):
             one.legend()
         return axes[0] if len(axes) == 1 else axes
 
+    @staticmethod
+    def _by_hand(q, letter, number):
+        """Sizes and numbers of the rows that finest= and without= leave out, at the finest other size."""
+        other = "size_" + ("k" if letter == "h" else "h")
+        finest = min((row[other] for row in q.rows if row.get(other)), default=None)
+        return [(row["size_" + letter], row[number]) for row in q.rows if row["left_out"] == "by hand" and
+                (len(q._axes) == 1 or row[other] == finest)]
+
     def _plot_errors(self, axes, group):
         for i, q in enumerate(group):
             size = [p.size for p in q.points]
             for hollow in (False, True):
-                drawn = [p for p in q.points if bool(p.left_out) == hollow]
-                axes.plot([p.size for p in drawn], [p.error for p in drawn], "os^Dv"[i % 5], color=f"C{i}",
+                drawn = [(p.size, p.error) for p in q.points if bool(p.left_out) == hollow]
+                drawn += self._by_hand(q, "hk"[q._axes[0]], "error") if hollow else []
+                axes.plot([p[0] for p in drawn], [p[1] for p in drawn], "os^Dv"[i % 5], color=f"C{i}",
                           fillstyle="none" if hollow else "full", label=None if hollow else repr(q))
             axes.plot(size, [p.fit.value for p in q.points], color=f"C{i}")
             axes.fill_between(size, [p.fit.low for p in q.points], [p.fit.high for p in q.points],
@@ -397,13 +420,15 @@ class Orders(_Handle):
 
     def _plot_value(self, axes, group):
         letter = "hk"[group[0]._axes[0]]
-        rows = [row for row in group[0].rows if row["value"] is not None]
+        rows = [row for row in group[0].rows if row["value"] is not None and row["left_out"] != "by hand"]
         if len(group[0]._axes) == 2:  # the line at the finest time step
             rows = [row for row in rows if row["size_k"] == min(r["size_k"] for r in rows)]
         size, value = [row["size_" + letter] for row in rows], [row["value"] for row in rows]
         row = [r for r in self.report["tables"]["limits"] if r["quantity"] == group[0].name and r["in"] == letter][-1]
         title, end = [], row["phi_ext"]
         axes.plot(size, value, "o", color="C0", label=group[0].name)
+        if by_hand := self._by_hand(group[0], letter, "value"):
+            axes.plot(*zip(*by_hand), "o", color="C0", fillstyle="none")
         if row["gci_fine"] is not None:
             title.append(f"p = {row['p']:.2f}, GCI {100 * row['gci_fine']:.2g} %")
             axes.errorbar(size[-1:], value[-1:], yerr=abs(row["gci_fine"] * value[-1]), color="0.2", capsize=5,
@@ -418,6 +443,58 @@ class Orders(_Handle):
             at = max(size) * np.linspace(0, 1, 61) ** max(1, 1 / row["p"])
             axes.plot(at, end + (value[-1] - end) * (at / size[-1]) ** row["p"], color="C0")
         axes.set(xlabel=f"size {letter}", ylabel=group[0].name, title=f"{group[0].name}: " + "\n".join(title))
+
+
+class Trade(_Handle):
+    """What a digit costs in several programs. See trade().
+
+    cheapest, growth, runs: rows of the report's tables of these names.
+    """
+    _kind = "trade"
+
+    def __init__(self, tables, cost):
+        super().__init__()
+        _call("trade_read", byref(self.handle), (_Table * len(tables))(*tables), c_size_t(len(tables)), cost)
+        text = c_char_p()
+        _call("trade_report", self, byref(text))
+        self.report = json.loads(text.value)
+        self.cheapest, self.growth, self.runs = (self.report["tables"][key]
+                                                 for key in ("cheapest", "growth", "runs"))
+
+    def __repr__(self):
+        return "\n".join(self.report["answer"])
+
+    def plot(self, axes=None):
+        """Draws the errors over the costs: the stairs of each program's own best; dots: dearer and no
+        better; hollow: mostly the start of the program; grey: the front of all. Needs matplotlib. axes:
+        one for each quantity. Returns them: one, or a list."""
+        names = list(dict.fromkeys(row["quantity"] for row in self.runs))
+        if axes is None:
+            import matplotlib.pyplot
+            axes = matplotlib.pyplot.subplots(1, len(names), squeeze=False, figsize=(6.4 * len(names), 4.8))[1]
+        axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
+        if len(axes) < len(names):
+            raise BadInput(f"axes: found {len(axes)}, expected a list of {len(names)}")
+        for one, name in zip(axes, names):
+            self._plot(one, [row for row in self.runs if row["quantity"] == name])
+            one.set(xscale="log", yscale="log", xlabel=", ".join(filter(None, (self.report["cost"], self.report["cost_unit"]))), ylabel=f"error {name}")
+            one.legend()
+        return axes[0] if len(axes) == 1 else axes
+
+    @staticmethod
+    def _plot(axes, runs):
+        def draw(rows, *style, **more):
+            rows = sorted(rows, key=lambda row: row["cost"])
+            axes.plot([row["cost"] for row in rows], [row["error"] for row in rows], *style, **more)
+
+        draw([r for r in runs if r["front"]], color="0.85", linewidth=6, drawstyle="steps-post", label="front of all")
+        for i, program in enumerate(dict.fromkeys(row["program"] for row in runs)):
+            own = [r for r in runs if r["program"] == program and r["own_front"]]
+            draw(own, color=f"C{i}", linestyle=("-", "--", ":", "-.")[i % 4], drawstyle="steps-post")
+            for start in (False, True):
+                draw([r for r in own if bool(r["remark"]) == start], "os^Dv"[i % 5], color=f"C{i}",
+                     fillstyle="none" if start else "full", label=None if start else program)
+        draw([r for r in runs if not r["own_front"]], ".", color="0.6")
 
 
 # ---- orders of a table ----
@@ -450,7 +527,8 @@ def _names(name, value):
 _SIZES = ("h", "n", "level", "dofs", "cells", "points", "interior", "degree", "k", "dt", "steps")
 
 
-def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=None, where=None, **sizes):
+def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=None, where=None, finest=0,
+           without=None, **sizes):
     """The orders of convergence of a table: Orders, whose repr is the answer.
 
     data: a pandas DataFrame, a mapping of names to lists of numbers, the path of a file, or one list
@@ -460,8 +538,9 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=Non
     values, errors: names of columns, "cd" or ["cd", "cl"]: values have no known limit; default: all
     numbers are errors. Of one list, values=True makes it values. formal: the order of theory for
     values (2). columns={"time": "aside"}: what other columns are, as --column has it.
-    where={"method": "P1"}: one case of several; else each is answered. NaN is a missing number. The
-    answer says what was taken for what, and what was left aside.
+    where={"method": "P1"}: one case of several; else each is answered. finest=3: the finest three sizes
+    alone; without=[8]: all sizes but these. NaN is a missing number. The answer says what was taken for
+    what, and what was left aside.
     """
     if wrong := sorted(set(sizes) - set(_SIZES)):
         _refuse(TypeError, "sizes", wrong, f"some of {', '.join(_SIZES)}")
@@ -479,7 +558,42 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=Non
         _refuse(BadInput, "dimension, formal", watch, "numbers above 0")
     return Orders(None, _table=_Table(name, text, _names("errors", errors), _names("values", values),
                                       dimension, formal, _pairs("columns", roles),
-                                      _pairs("where", dict(where or {}))))
+                                      _pairs("where", dict(where or {})), _finest(finest),
+                                      _names("without", [without] if isinstance(without, (int, float, np.number))
+                                             else without)))
+
+
+def _finest(value):
+    try:
+        value = operator.index(value or 0)
+    except TypeError:
+        _refuse(TypeError, "finest", value, "a whole number (an integer)")
+    return value if value == 0 or 3 <= value <= 1000 else _refuse(BadInput, "finest", value, "3 to 1000 sizes")
+
+
+def trade(sources, *, cost=None, trust=False):
+    """What a digit costs: errors over costs of several programs. A Trade, whose repr is the answer.
+
+    sources: a list, or a mapping of names to them: paths of tables and of study files (.yaml), pandas
+    DataFrames, mappings of names to lists of numbers. Each has a column of a cost, seconds, cpu, wall,
+    dofs, iterations or memory, or one that cost= names, and an error of a name that all have. Study
+    files run their commands, one at a time, until the times are known: read them, then trust=True.
+    """
+    named = sources.items() if hasattr(sources, "items") else [(None, data) for data in sources]
+    tables = []
+    for i, (name, data) in enumerate(named):
+        if isinstance(data, (str, os.PathLike)):
+            text = Path(data).read_bytes()
+            if b"\0" in text:
+                raise BadInput(f"{data}: found a zero byte, expected text")
+            study = Path(data).suffix in (".yaml", ".yml")
+            if study and not trust:
+                raise BadInput(f"{data}: it may run commands: read it, then give trust=True")
+            name = data if study or name is None else name
+        else:
+            text, name = _as_json(data, None, {}, {})[0], f"table {i + 1}" if name is None else name
+        tables.append(_Table(_text("name", str(name)), text, None, None, 0, 0, None, None))
+    return Trade(tables, None if cost is None else _text("cost", cost))
 
 
 def _pairs(name, pairs):

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "orders/library/library.h"
-#include "orders/request.h"
 
 static_assert((int)BEAMRATE_SPACE == BR_AXIS_SPACE && (int)BEAMRATE_TIME == BR_AXIS_TIME, "");
 static_assert((int)BEAMRATE_PASS == BR_PASS && (int)BEAMRATE_FAIL == BR_FAIL &&
@@ -16,25 +15,6 @@ static bool is_axis(enum beamrate_axis axis)
 {
     return axis == BEAMRATE_SPACE || axis == BEAMRATE_TIME;
 }
-
-/* The body of a call that makes a handle (out) from zeros. `fill` may use *handle and call. If it
- * fails, the call fails. */
-#define MAKE_HANDLE(handle, handle_kind, release, fill)                                           \
-    struct br_call call;                                                                          \
-    br_call_begin(&call);                                                                         \
-    if (!(handle))                                                                                \
-        return br_call_end(                                                                       \
-            &call, br_fail(&call.err, BR_BAD_INPUT, "found NULL, expected a place for a handle"), \
-            err);                                                                                 \
-    *(handle) = br_allocate(1, sizeof **(handle));                                                \
-    if (*(handle))                                                                                \
-        (*(handle))->kind = handle_kind;                                                          \
-    const enum br_status made = *(handle) ? (fill) : br_no_memory(&call.err, "a handle");         \
-    if (made) {                                                                                   \
-        release(*(handle));                                                                       \
-        *(handle) = NULL;                                                                         \
-    }                                                                                             \
-    return br_call_end(&call, made, err)
 
 static const struct beamrate_estimate nothing = {NAN, NAN, NAN};
 
@@ -106,10 +86,10 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                 find_orders(*orders, numbers, &call.err));
 }
 
-static enum br_status read_orders(struct beamrate_orders *o, const struct beamrate_table *table,
-                                  struct br_error *err)
+enum br_status br_request_of(const struct beamrate_table *table, struct br_orders_request *q,
+                             struct br_error *err)
 {
-    struct br_orders_request q = br_orders_request_default();
+    *q = br_orders_request_default();
     if (!table || !table->text)
         return br_fail(err, BR_BAD_INPUT, "table: found NULL, expected a table");
     if (!(table->dimension >= 0 && isfinite(table->dimension) && table->formal >= 0 &&
@@ -119,16 +99,29 @@ static enum br_status read_orders(struct beamrate_orders *o, const struct beamra
             "table: found dimension %g and formal order %g, expected numbers above 0, or "
             "0: not stated",
             table->dimension, table->formal);
-    q.path = (char *)(table->name ? table->name
-                                  : "table"); /* all borrowed: the request is not cleared */
-    q.table = (char *)table->text;
-    q.errors = (char *)table->errors;
-    q.values = (char *)table->values;
-    q.columns = (char *)table->columns;
-    q.where = (char *)table->where;
-    q.dimension = table->dimension > 0 ? table->dimension : q.dimension;
-    q.assumed_dimension = !(table->dimension > 0);
-    q.formal = table->formal > 0 ? table->formal : q.formal;
+    q->path = (char *)(table->name ? table->name : "table");
+    q->table = (char *)table->text;
+    q->errors = (char *)table->errors;
+    q->values = (char *)table->values;
+    q->columns = (char *)table->columns;
+    q->where = (char *)table->where;
+    q->finest = (double)table->finest;
+    q->without = (char *)table->without;
+    if (table->finest > 0 && table->finest < BR_ORDERS_LEAST)
+        return br_fail(err, BR_BAD_INPUT, "table: finest: found %zu, expected at least %d, or 0",
+                       table->finest, BR_ORDERS_LEAST);
+    q->dimension = table->dimension > 0 ? table->dimension : q->dimension;
+    q->assumed_dimension = !(table->dimension > 0);
+    q->formal = table->formal > 0 ? table->formal : q->formal;
+    return BR_OK;
+}
+
+static enum br_status read_orders(struct beamrate_orders *o, const struct beamrate_table *table,
+                                  struct br_error *err)
+{
+    struct br_orders_request q;
+    if (br_request_of(table, &q, err))
+        return err->status;
     return br_orders_read(&q, &o->numbers, err)
                ? err->status
                : br_orders_find(&o->numbers, q.formal, &o->orders, err);

@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/cache.h"
 #include "base/each.h"
@@ -17,6 +18,8 @@ struct job {
     struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
     uint64_t *stamp;            /* of each row's files, when the study began; owned */
     struct br_cache *cache;
+    struct br_numbers_row start; /* of a trade: of a process that does nothing */
+    double start_half[2];        /* of its times' 95 % intervals */
 };
 
 /* ---- finished cells ---- */
@@ -66,6 +69,100 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
+/* ---- times of a trade ---- */
+
+enum { LEAST_RUNS = 6, MOST_RUNS = 30 };                       /* six hold the median with 97 % */
+static const double longest = 10;                              /* all runs of a cell, s */
+static const double known = 0.05, scatter = 0.1, least = 1e-4; /* s: less is not known */
+
+static int by_time(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* The median of times, which it sorts; *half (out): of its 95 % interval, by ranks. Of a few runs
+ * the clock's usual scatter at least. */
+static double median(double *time, size_t runs, double *half)
+{
+    const double count = (double)runs, rank = floor((count - 1.96 * sqrt(count)) / 2);
+    const size_t low = rank > 1 ? (size_t)rank - 1 : 0;
+    qsort(time, runs, sizeof *time, by_time);
+    const double middle = (time[(runs - 1) / 2] + time[runs / 2]) / 2;
+    *half = fmax((time[runs - 1 - low] - time[low]) / 2, least);
+    if (runs < LEAST_RUNS)
+        *half = fmax(*half, scatter * middle);
+    return middle;
+}
+
+/* Repeats a run, which has warmed up, until the medians of its times are known to 5 %; one that
+ * takes long, once or never. */
+static enum br_status time_runs(const struct br_orders_request *program,
+                                const struct br_command_words *words, struct br_numbers_row *row,
+                                double half[2], struct br_error *err)
+{
+    struct br_orders_request bare = *program;
+    struct br_numbers_row one = {.failure = NULL};
+    double time[2][MOST_RUNS] = {{row->seconds}, {row->wall}}, spent = row->wall;
+    bool settled = false;
+    bare.readings = 0;
+    for (size_t runs = 0; runs < MOST_RUNS && spent <= longest && !settled;) {
+        const enum br_status status = br_run_command(&bare, words, &one, err);
+        if (status)
+            return status;
+        if (one.failure) {
+            br_run_failed(program, row, err, "when its time was measured: %s", one.failure);
+            free(one.failure);
+            return err->status;
+        }
+        time[0][runs] = one.seconds;
+        time[1][runs++] = one.wall;
+        spent += one.wall;
+        row->seconds = median(time[0], runs, &half[0]);
+        row->wall = median(time[1], runs, &half[1]);
+        settled = runs >= LEAST_RUNS && half[0] <= fmax(known * row->seconds, least) &&
+                  half[1] <= fmax(known * row->wall, least);
+    }
+    return BR_OK;
+}
+
+/* Whether runs are repeated: not where the cost is a number that they print. */
+static bool is_timed(const struct br_orders_request *program)
+{
+    bool timed = program->cost;
+    for (size_t i = 0; i < program->readings && timed; i++)
+        timed = strcmp(program->reading[i].name, program->cost) != 0;
+    return timed;
+}
+
+/* The times of a process that does nothing: they are taken away from all others. */
+static enum br_status time_start(struct job *j, struct br_error *err)
+{
+    static char path[] = "/bin/true", *word[] = {path, NULL};
+    const struct br_command_words words = {.word = word, .program = path};
+    j->start = (struct br_numbers_row){.seconds = 0};
+    return is_timed(j->program) && access(path, X_OK) == 0
+               ? time_runs(j->program, &words, &j->start, j->start_half, err)
+               : BR_OK;
+}
+
+/* Measures the times of a row, with the deviations of its costs (costs_of_runs). */
+static enum br_status time_row(const struct job *j, const struct br_command_words *words,
+                               struct br_numbers_row *row, struct br_error *err)
+{
+    double half[2] = {scatter * row->seconds, scatter * row->wall};
+    const double taken[2] = {j->start.seconds, j->start.wall};
+    double *const time[2] = {&row->seconds, &row->wall};
+    if (time_runs(j->program, words, row, half, err))
+        return err->status;
+    for (int i = 0; i < 2; i++) {
+        half[i] = hypot(half[i], j->start_half[i]);
+        *time[i] = fmax(*time[i] - taken[i], half[i]);
+        row->deviation[j->numbers->quantities + (size_t)i] = half[i] / 2;
+    }
+    return BR_OK;
+}
+
 /* Takes a finished cell, or runs it and keeps it. text: of the cell; NULL: it is not cached. A row
  * is of the files with which the study began, or it has failed. */
 static enum br_status get_row(const struct job *j, const struct br_command_words *words,
@@ -73,8 +170,9 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
 {
     struct row of = {&j->numbers->row[i], j->numbers->quantities};
     of.row->cached = br_cache_take(j->cache, text, pass_row, &of);
-    if (!of.row->cached)
-        br_run_command(j->program, words, of.row, err);
+    if (!of.row->cached && !br_run_command(j->program, words, of.row, err) &&
+        is_timed(j->program) && !of.row->failure)
+        time_row(j, words, of.row, err);
     if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
         of.row->cached = false;
         return br_run_failed(j->program, of.row, err,
@@ -119,7 +217,7 @@ enum br_status br_program_rows(const struct br_orders_request *p, struct br_numb
     const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
     const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
-    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings + 4, err);
     for (size_t r = 0; r < rows && !status; r++) {
         const size_t at[BR_AXES] = {
             [BR_AXIS_SPACE] = r / repeat / inner, [BR_AXIS_TIME] = r / repeat % inner};
@@ -138,6 +236,8 @@ enum br_status br_program_rows(const struct br_orders_request *p, struct br_numb
         br_numbers_sort(numbers);
     return status;
 }
+
+static const char *const costs_of_runs[] = {"cpu", "wall", "memory", "dofs"};
 
 static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
                                       struct br_error *err)
@@ -176,6 +276,12 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
+    const size_t costs = !p->cost ? 0 : mesh && strcmp(mesh->name, "dofs") == 0 ? 4 : 3;
+    for (size_t i = 0; i < costs && !status; i++)
+        status =
+            br_numbers_add_quantity(numbers, costs_of_runs[i], i == 2 ? "B" : NULL, false, err);
+    numbers->costs = numbers->quantities >= costs && !status ? costs : 0;
+    numbers->quantities -= numbers->costs;
     return status;
 }
 
@@ -223,6 +329,8 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             struct br_numbers_row *other = &n->row[first + i];
             row.seconds += other->seconds;
             row.wall += other->wall;
+            for (size_t q = n->quantities; q < n->quantities + n->costs; q++)
+                row.deviation[q] = fmax(row.deviation[q], other->deviation[q]);
             row.bytes = fmax(row.bytes, other->bytes);
             row.cached &= other->cached;
             if (!row.failure) {
@@ -246,6 +354,10 @@ static void finish_rows(const struct br_orders_request *p, struct br_numbers *n)
         take_stated_sizes(p, n, axis);
     if (p->repeat > 1)
         join_repeated(n, (size_t)p->repeat);
+    for (struct br_numbers_row *row = n->row; row < n->row + n->rows && n->costs; row++) {
+        const double costs[] = {row->seconds, row->wall, row->bytes, row->given[BR_AXIS_SPACE]};
+        memcpy(row->number + n->quantities, costs, n->costs * sizeof *costs);
+    }
 }
 
 /* Refuses a command that is not valid at any resolution, before one is run. */
@@ -291,17 +403,18 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
                   make_quantities(program, numbers, err) || check_commands(&j, err) ||
                   (program->cache && open_cache(&j, err));
     const struct br_each each = {.count = numbers->rows,
-                                 .threads = program->jobs,
+                                 .threads = program->cost ? 1 : program->jobs,
                                  .observer = program->observer,
                                  .turn = take_turn,
                                  .self = &j};
     if (!failed)
         br_run_folders_clean();
-    failed = failed || br_each(&each, err);
+    failed = failed || time_start(&j, err) || br_each(&each, err);
     free(j.stamp);
-    if (failed)
+    if (failed) {
         br_numbers_clear(numbers);
-    else
-        finish_rows(program, numbers);
-    return failed ? err->status : BR_OK;
+        return err->status;
+    }
+    finish_rows(program, numbers);
+    return BR_OK;
 }

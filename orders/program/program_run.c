@@ -116,7 +116,6 @@ static void watch(struct program_run *r)
     const double begun = br_seconds();
     double asked = INFINITY; /* when it was asked to end, s */
     bool ours = true;
-    struct timespec pause = {.tv_nsec = 1000000};
     while (!br_process_has_ended(&r->process) &&
            br_seconds() - asked < (ours ? PATIENCE : 2 * GRACE)) {
         const double now = br_seconds();
@@ -127,9 +126,9 @@ static void watch(struct program_run *r)
             br_process_signal(&r->process, SIGTERM);
         else if (r->end && (r->end != TOO_LONG || now - asked > GRACE))
             ours = br_process_signal(&r->process, SIGKILL);
-        nanosleep(&pause, NULL);
-        if (pause.tv_nsec < 16000000)
-            pause.tv_nsec *= 2;
+        /* so that its end is known to some percent */
+        const double pause = fmin(fmax(0.02 * (now - begun), 1e-4), 0.016);
+        nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * pause)}, NULL);
     }
     r->wall = br_seconds() - begun;
     r->how = br_process_end(&r->process);

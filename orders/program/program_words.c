@@ -214,6 +214,35 @@ static enum br_status find_program(const char *here, const char *name, char **pr
                             : "; a file here needs ./ before it");
 }
 
+/* The script that an interpreter is to run ("python3 x.py"), where no file has its name; NULL:
+ * there is none. Options before it, and whatever is no plain name of a file, are left alone. */
+static const char *lost_script(char *const *word)
+{
+    static const char *const interpreters[] = {"python", "julia", "Rscript", "octave",
+                                               "perl",   "ruby",  "sh",      "bash",
+                                               "lua",    "node",  "php",     "FreeFem++"};
+    bool follows = false;
+    for (; *word; word++) {
+        const char *slash = strrchr(*word, '/'), *name = slash ? slash + 1 : *word;
+        const char *dot = strrchr(name, '.');
+        const size_t letters = dot ? strspn(dot + 1, "abcdefghijklmnopqrstuvwxyzR") : 0;
+        if (follows && **word == '-') {
+            follows = !strchr("cem", (*word)[1]); /* code, or a module */
+            continue;
+        }
+        if (follows && letters && letters <= 3 && !dot[1 + letters] && !strpbrk(*word, " =:") &&
+            (**word != '/' || access(*word, F_OK) != 0)) /* a file that is there has its path */
+            return *word;
+        follows = false;
+        for (size_t i = 0; i < sizeof interpreters / sizeof *interpreters; i++) {
+            const size_t length = strlen(interpreters[i]);
+            follows |= strncmp(name, interpreters[i], length) == 0 &&
+                       strspn(name + length, ".0123456789") == strlen(name + length);
+        }
+    }
+    return NULL;
+}
+
 /* ---- all ---- */
 
 static enum br_status fill_words(struct split *s, const char *here, const wordexp_t *words,
@@ -238,7 +267,14 @@ static enum br_status fill_words(struct split *s, const char *here, const wordex
         if (s->request->axis[i].column && !s->used[i])
             return br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
                            s->request->axis[i].column->name);
-    return find_program(here, c->word[0], &c->program, err);
+    if (find_program(here, c->word[0], &c->program, err))
+        return err->status;
+    const char *lost = lost_script(c->word);
+    char shown[SHOWN], folder[SHOWN];
+    return lost ? br_fail(err, BR_BAD_INPUT, "%s runs '%s', and no file is there (in %s)",
+                          c->word[0], br_quoted(shown, sizeof shown, &br_for_text, lost),
+                          br_quoted(folder, sizeof folder, &br_for_text, here))
+                : BR_OK;
 }
 
 enum br_status br_command_split(const struct br_orders_request *r, const struct br_numbers_row *row,

@@ -93,21 +93,29 @@ static bool a_size_repeats(const struct br_roles *r, size_t but)
     return false;
 }
 
-static bool is_consecutive(const struct br_roles *r, const struct br_role_column *c)
+/* The step by which small whole numbers count up; 0: there is none. */
+static int step_of(const struct br_roles *r, const struct br_role_column *c)
 {
     bool found[32] = {false};
+    int step = 0;
     if (!c->is_whole || c->words || c->least < 0 || c->most > 31)
-        return false;
+        return 0;
     for (size_t i = 0; i < r->rows; i++)
         if (!isnan(c->number[i]))
             found[(int)c->number[i]] = true;
-    for (int i = (int)c->least; i <= (int)c->most; i++)
+    for (int i = (int)c->least + 1, before = i - 1; i <= (int)c->most; i++) {
         if (!found[i])
-            return false;
-    return c->least < c->most;
+            continue;
+        if (step && i - before != step)
+            return 0;
+        step = i - before;
+        before = i;
+    }
+    return step;
 }
 
-/* Small whole numbers that are called a degree; an order, p or k only if they count by one. */
+/* Small whole numbers that are called a degree; p only if they count by one step, an order or k if
+ * that is one. */
 static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
 {
     const bool word = c->kind == BR_KIND_DEGREE;
@@ -116,8 +124,9 @@ static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
         (letter && *c->name == 'k') || (c->kind == BR_KIND_RATE && c->numbers == r->rows);
     if (c->stated || c->role != BR_ROLE_ASIDE || c->by_hand)
         return c->by_hand && word;
+    const int step = step_of(r, c);
     return word && !letter ? c->is_whole && !c->words && c->most <= 64
-                           : (word || other) && is_consecutive(r, c) && c->most <= 20;
+                           : (word ? step > 0 : other && step == 1) && c->most <= 20;
 }
 
 /* Whether a column follows from another: rows of one field there have one field here. */

@@ -14,6 +14,59 @@ char *br_row_place(const struct br_fields *f, size_t row, char text[32])
     return text;
 }
 
+/* The unit behind the number of a field, "10 mm"; NULL: there is none. */
+static const char *unit_in(const char *text)
+{
+    const char *end = text + strlen(text), *unit = end;
+    while (unit > text && isalpha((unsigned char)unit[-1]))
+        unit--;
+    return unit > text && br_is_unit(unit) && (unit[-1] == ' ' || isdigit((unsigned char)unit[-1]))
+               ? unit
+               : NULL;
+}
+
+/* The unit that all numbers of a column have in their fields; NULL: there is none. */
+static const char *unit_of_all(const struct br_roles *r, size_t column)
+{
+    const char *all = NULL;
+    for (size_t i = 0; i < r->rows; i++) {
+        const char *text = br_role_field(r, i, column);
+        if (br_field_is_missing(text) || br_is_gap(text))
+            continue;
+        const char *unit = unit_in(text);
+        if (!unit || (all && strcmp(unit, all) != 0))
+            return NULL;
+        all = unit;
+    }
+    return all;
+}
+
+/* Reads a field of a column. Behind it may be the unit of all; thousands may be apart: "1 000". */
+static bool read_field(const struct br_roles *r, size_t column, const char *text,
+                       struct br_field_number *n)
+{
+    enum { LONGEST = 64 };
+    const struct br_role_column *c = &r->column[column];
+    char plain[LONGEST], *to = plain;
+    if (r->fields->is_words[column])
+        return false;
+    const char *bracket = c->rates_in_brackets ? strrchr(text, '(') : NULL;
+    if (!bracket && br_field_read(text, r->fields->mark, n))
+        return true;
+    const size_t length = bracket
+                              ? (size_t)(bracket - text)
+                              : strlen(text) - (c->unit_of_fields ? strlen(c->unit_of_fields) : 0);
+    const char *const end = text + length;
+    for (const char *at = text; at < end && length < LONGEST; at++)
+        if (!(at > text && isdigit((unsigned char)at[-1]) && strchr(" '", *at) &&
+              strspn(at + 1, "0123456789") == 3 && *text != '0'))
+            *to++ = *at;
+    while (to > plain && to[-1] == ' ')
+        to--;
+    *to = '\0';
+    return to > plain && br_field_read(plain, r->fields->mark, n);
+}
+
 /* The significant digits of a text, and its decimals where it has no exponent (else -1). */
 static int digits_of(const char *text, int *decimals)
 {
@@ -55,16 +108,32 @@ static void find_rounding(struct br_roles *r, size_t column)
     }
 }
 
+/* Whether fields of a column give powers of ten in brackets, "1.2(-3)": then "1.2(3)" has one, and
+ * no deviation. */
+static bool has_powers(const struct br_roles *r, size_t column)
+{
+    struct br_field_number n;
+    for (size_t i = 0; i < r->rows; i++)
+        if (br_role_field(r, i, column) &&
+            br_field_read(br_role_field(r, i, column), r->fields->mark, &n) && !isnan(n.of_power) &&
+            isnan(n.deviation))
+            return true;
+    return false;
+}
+
 /* Reads the numbers of a column in the rows that are not left aside. */
 void br_roles_read_column(struct br_roles *r, size_t column)
 {
     struct br_role_column *c = &r->column[column];
     c->numbers = c->words = c->gaps = 0;
+    const bool powers = has_powers(r, column);
+    c->unit_of_fields = unit_of_all(r, column);
+    c->unit = c->unit || !c->name ? c->unit : c->unit_of_fields;
     c->is_whole = true;
     c->least = INFINITY;
     c->most = -INFINITY;
     for (size_t i = 0; i < r->rows; i++) {
-        struct br_field_number n = {NAN, NAN};
+        struct br_field_number n = {NAN, NAN, NAN};
         const char *text = br_role_field(r, i, column);
         c->number[i] = c->deviation[i] = NAN;
         if (r->dropped[i] || br_field_is_missing(text))
@@ -74,10 +143,12 @@ void br_roles_read_column(struct br_roles *r, size_t column)
             c->gap = text;
             continue;
         }
-        if (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)) {
+        if (!read_field(r, column, text, &n)) {
             c->words++;
             continue;
         }
+        if (powers && !isnan(n.of_power))
+            n = (struct br_field_number){n.of_power, NAN, NAN};
         c->number[i] = n.value;
         c->deviation[i] = n.deviation;
         c->numbers++;
@@ -110,7 +181,7 @@ enum br_status br_roles_check_words(const struct br_roles *r, size_t column, str
     for (size_t i = 0; i < r->rows && c->words; i++) {
         const char *text = br_role_field(r, i, column);
         if (!r->dropped[i] && !br_field_is_missing(text) && !br_is_gap(text) &&
-            (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)))
+            !read_field(r, column, text, &n))
             return br_fail(
                 err, BR_BAD_INPUT,
                 "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",

@@ -25,6 +25,17 @@ extern const struct br_resolution_column
 const struct br_resolution_column *br_resolution_column_find(const char *name);
 extern const struct br_resolution_column br_degree_column; /* no row: a table alone has it */
 
+/* What a column of costs has. */
+enum br_cost {
+    BR_COST_CPU,
+    BR_COST_WALL,
+    BR_COST_TIME, /* one of the two */
+    BR_COST_DOFS,
+    BR_COST_ITERATIONS,
+    BR_COST_MEMORY,
+    BR_COSTS
+};
+
 /* z of a number of the column. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
 

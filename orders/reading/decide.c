@@ -56,14 +56,21 @@ static bool has_usual_name(const struct br_role_column *c, const struct br_resol
     return c->by_hand ? c->stated == s : br_odds(c, s) > 0.5;
 }
 
+/* Whether its heading is a usual one of unknowns or cells. */
+static bool counts_volume(const struct br_role_column *c)
+{
+    bool counts = false;
+    for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+        counts |= s->is_volume && br_odds(c, s) >= BR_USUAL_NAME;
+    return counts;
+}
+
 /* Whether steps hardly grow while unknowns or cells do: iterations of a solver. */
 static bool hardly_grows(const struct br_roles *r, const struct br_role_column *steps)
 {
     bool grow = false;
     for (size_t i = 0; i < r->columns && steps->least > 0; i++)
-        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
-            grow |= s->is_volume && br_odds(&r->column[i], s) >= BR_USUAL_NAME &&
-                    r->column[i].most > 2 * r->column[i].least;
+        grow |= counts_volume(&r->column[i]) && r->column[i].most > 2 * r->column[i].least;
     return grow && steps->most < 1.5 * steps->least;
 }
 
@@ -77,6 +84,8 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
         return false;
     if (c->by_hand)
         return c->stated == s;
+    if (!s->is_volume && t->roles->wishes->dimension > 0 && counts_volume(c))
+        return false; /* whoever states the dimension says what the cells count */
     if (!(c->least < c->most) || (c->kind == BR_KIND_DEGREE && c->is_whole) ||
         (!named && c->kind != BR_KIND_UNKNOWN))
         return false;
@@ -216,13 +225,17 @@ static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
     return text;
 }
 
-/* "--column 'N=cells' --dimension 1, 2 or 3" */
-static char *say_option(const struct br_roles *r, const struct br_candidate *c, char text[TEXT])
+/* "--column 'N=cells' --dimension 1, 2 or 3"; of two readings of a usual heading "--dimension 1, 2
+ * or 3". other: what else is read, or NULL. */
+static char *say_option(const struct br_roles *r, const struct br_candidate *c,
+                        const struct br_candidate *other, char text[TEXT])
 {
     char name[80], item[120], quoted[160];
     const struct br_role_column *column = &r->column[c->size.column];
+    const bool is_clear = lacks_dimension(r, c) && counts_volume(column) &&
+                          (!other || other->size.column == c->size.column);
     *text = '\0';
-    if (!column->by_hand) {
+    if (!column->by_hand && !is_clear) {
         snprintf(item, sizeof item, "%s=%s", shown_name(r, c->size.column, name),
                  c->size.states->name);
         br_append(text, TEXT, "--column %s", br_quoted(quoted, sizeof quoted, &br_for_shell, item));
@@ -322,7 +335,7 @@ static enum br_status ask(const struct contest *t, const struct br_candidate *be
     best = plainest(t, best);
     second = plainest(t, second);
     say_order(t, best, error, a);
-    say_option(t->roles, best, option_a);
+    say_option(t->roles, best, second, option_a);
     if (second->size.column == best->size.column && second->size.states == best->size.states)
         return br_fail(
             err, BR_BAD_INPUT,
@@ -330,7 +343,7 @@ static enum br_status ask(const struct contest *t, const struct br_candidate *be
             a, option_a);
     return br_fail(err, BR_BAD_INPUT, "%s: the sizes are not clear: %s; %s: %s, or %s, decides",
                    path, a, say_order(t, second, error, b), option_a,
-                   say_option(t->roles, second, option_b));
+                   say_option(t->roles, second, best, option_b));
 }
 
 /* ---- refusals with a hint ---- */
@@ -423,7 +436,7 @@ static void assume(struct contest *t, const struct br_candidate *best,
     const bool dimension = best->size.states->is_volume && !(r->wishes->dimension > 0);
     const size_t error = clearest_error(t, best);
     r->assumed_dimension |= dimension && t->axis == BR_AXIS_SPACE;
-    say_option(r, best, option);
+    say_option(r, best, second, option);
     br_append(r->assumed, sizeof r->assumed, "%s%s is assumed", *r->assumed ? "; " : "",
               say_reading(r, best, true, reading));
     if (second)
@@ -512,6 +525,14 @@ static void set_lines(struct br_roles *r, enum br_axis axis)
     }
 }
 
+static bool has_degrees(const struct br_roles *r)
+{
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].role == BR_ROLE_DEGREE && r->column[i].kind == BR_KIND_DEGREE)
+            return true;
+    return false;
+}
+
 enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
 {
     bool time_gives_rates = false;
@@ -524,6 +545,8 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
         const struct br_role_column *c = best ? &r->column[best->size.column] : NULL;
         if (best && i == BR_AXIS_SPACE && r->size[BR_AXIS_TIME].states && !c->by_hand &&
             (br_odds(c, best->size.states) < 2 || (best->contradicts_rates && time_gives_rates)))
+            best = NULL;
+        if (best && best->odds < least_odds && has_degrees(r)) /* they are the axis */
             best = NULL;
         if (best && choose(&t, best, err))
             return err->status;

@@ -55,7 +55,8 @@ static bool may_have_errors(const struct view *v, size_t i)
     const struct br_role_column *c = &v->roles->column[i];
     return i != v->candidate->size.column && c->role != BR_ROLE_CASE && c->numbers > c->words &&
            c->numbers >= 2 && c->most > 0 && c->kind != BR_KIND_RATE && c->kind != BR_KIND_COST &&
-           c->kind != BR_KIND_FACTOR && c->kind != BR_KIND_DEVIATION;
+           c->kind != BR_KIND_FACTOR && c->kind != BR_KIND_DEVIATION &&
+           c->kind != BR_KIND_LOGARITHM;
 }
 
 static double of_digit(const struct br_role_column *c, size_t row)
@@ -185,7 +186,8 @@ static bool grows_in(const struct view *v, double dimension)
 {
     const bool dofs = has_name(v, "dofs");
     return grows_by(v, 0, pow(2, dimension), dofs) ||
-           (dimension > 1 && grows_by(v, 0, pow(3, dimension), dofs));
+           (dimension > 1 && (grows_by(v, 0, pow(3, dimension), dofs) ||
+                              grows_by(v, 0, pow(1.5, dimension), false)));
 }
 
 /* Whether the heading is a usual name of any size. */
@@ -207,6 +209,14 @@ static double is_two_dimensional(const struct view *v)
 {
     return has_name(v, "dofs") && v->candidate->size.dimension == 2 && !grows_in(v, 1) &&
            !grows_in(v, 2) && !grows_in(v, 3);
+}
+
+/* Whether a line has more cells than one is cut into. */
+static double is_too_long(const struct view *v)
+{
+    const double most = 1e5;
+    return v->candidate->size.states->is_volume && v->candidate->size.dimension == 1 &&
+           !(v->roles->wishes->dimension > 0) && own(v)->most > most;
 }
 
 /* Whether all sizes fall by one factor. */
@@ -414,6 +424,7 @@ static const struct {
     {contradicts, -4, "it gives other rates than the table"},
     {grows, 2, "it grows as a number of this kind does where h halves"},
     {is_two_dimensional, 1.5, "most meshes with unknowns are 2-D"},
+    {is_too_long, -3, "few meshes are 1-D and have so many cells"},
     {halves, 0.75, "its sizes halve"},
     {counts_up, -4, "levels count by one"},
     {has_a_second, 3, "another column states the same sizes"},
@@ -431,6 +442,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *c, con
     for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++)
         c->odds += of_sizes[i].log_odds * of_sizes[i].holds(&v);
     c->agrees_with_rates = reproduces(&v) > 0;
+    c->misses_rates = v.rates.columns && !v.rates.all;
     c->contradicts_rates = contradicts(&v) > 0;
     c->wrong_way = grow_all(&v) > 0;
 }

@@ -156,20 +156,37 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
             strcpy(name, text); /* "L2(u)", "L2(p)": no units */
             c->unit = NULL;
         }
+    c->rates_in_brackets = c->unit && br_kind_of(c->unit) == BR_KIND_RATE;
+    c->unit = c->rates_in_brackets ? NULL : c->unit;
     c->kind = br_kind_of(c->name);
     return BR_OK;
 }
 
 /* ---- --column ---- */
 
+static bool is_called(const struct br_role_column *c, const char *text, size_t length,
+                      int (*compare)(const char *, const char *, size_t))
+{
+    const char *const names[] = {c->name, c->shown};
+    bool is = false;
+    for (int i = 0; i < 2; i++)
+        is |= names[i] && strlen(names[i]) == length && compare(names[i], text, length) == 0;
+    return is;
+}
+
 size_t br_roles_find_column(const struct br_roles *r, const char *text, size_t length)
 {
-    for (size_t i = 0; i < r->columns; i++) {
-        const char *names[] = {r->column[i].name, r->column[i].shown};
-        for (int k = 0; k < 2; k++)
-            if (names[k] && strlen(names[k]) == length && memcmp(names[k], text, length) == 0)
-                return i;
-    }
+    size_t found = BR_NO_ROW, count = 0;
+    for (size_t i = 0; i < r->columns; i++)
+        if (is_called(&r->column[i], text, length, strncmp))
+            return i;
+    for (size_t i = 0; i < r->columns; i++)
+        if (is_called(&r->column[i], text, length, strncasecmp)) {
+            found = i;
+            count++;
+        }
+    if (count == 1)
+        return found;
     const unsigned long position = strtoul(text, NULL, 10);
     return length && strspn(text, "0123456789") >= length && position > 0 && position <= r->columns
                ? position - 1
@@ -233,6 +250,20 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     return BR_OK;
 }
 
+/* Gives the names of a list the case of their headings. */
+static void settle_case(const struct br_roles *r, char *list)
+{
+    const char *item;
+    size_t length;
+    for (const char *rest = list; rest;) {
+        rest = br_list_next(rest, &item, &length);
+        const size_t found = br_roles_find_column(r, item, length);
+        const char *name = found == BR_NO_ROW ? NULL : r->column[found].name;
+        if (name && strlen(name) == length && strncasecmp(name, item, length) == 0)
+            memcpy(list + (item - list), name, length);
+    }
+}
+
 /* "err_sigma" beside "err" has deviations; alone it is the error of a stress. */
 static void find_deviations(struct br_roles *r)
 {
@@ -242,6 +273,25 @@ static void find_deviations(struct br_roles *r)
             if (k != i && of && of[1] && r->column[i].kind == BR_KIND_ERROR &&
                 strstr(r->column[i].name, "sigma") && strstr(r->column[i].name, of))
                 r->column[i].kind = BR_KIND_DEVIATION;
+        }
+}
+
+/* For a trade: the column of costs is no error, and unknowns beside another size are a cost. */
+static void leave_costs(struct br_roles *r)
+{
+    const char *cost = r->wishes->cost;
+    bool sizes = false;
+    double factor;
+    for (size_t i = 0; i < r->columns; i++)
+        for (int s = 0; s < BR_RESOLUTIONS; s++)
+            sizes |= br_resolution_columns[s].axis == BR_AXIS_SPACE &&
+                     !br_resolution_columns[s].is_volume && r->column[i].odds[s] >= BR_USUAL_NAME;
+    for (struct br_role_column *c = r->column; c < r->column + r->columns && cost; c++)
+        if (c->name && !c->by_hand &&
+            ((strcmp(c->name, cost) == 0 && c->named < BR_USUAL_NAME) ||
+             (sizes && br_cost_of(c->name, c->unit, &factor) == BR_COST_DOFS))) {
+            c->by_hand = true;
+            c->why = "the cost";
         }
 }
 
@@ -258,6 +308,8 @@ enum br_status br_roles_take_headings(struct br_roles *r, struct br_error *err)
         if (take_item(r, item, length, err))
             return err->status;
     }
+    settle_case(r, r->wishes->errors);
+    settle_case(r, r->wishes->values);
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
         snprintf(c->position, sizeof c->position, "%zu", i + 1);
@@ -270,6 +322,7 @@ enum br_status br_roles_take_headings(struct br_roles *r, struct br_error *err)
         gci |= c->name && strcasestr(c->name, "gci");
     }
     find_deviations(r);
+    leave_costs(r);
     for (size_t i = 0; i < r->columns && gci; i++) /* r is the ratio of two sizes, p one order */
         if (r->column[i].name && !r->column[i].name[1] && strchr("rp", *r->column[i].name) &&
             !r->column[i].by_hand)

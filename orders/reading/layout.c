@@ -255,7 +255,7 @@ static bool is_sequence(const struct layout *l)
 {
     size_t columns = 0, rows = 0;
     for (size_t c = 0; c < l->width; c++, rows = 0) {
-        struct br_field_number number, before = {0, 0};
+        struct br_field_number number, before = {0};
         size_t up = 0, down = 0, read = 0;
         for (size_t i = l->first; i <= l->last; i++) {
             const struct row *r = &l->row[i];

@@ -22,9 +22,10 @@ static char plain_sign(const char *at, size_t *bytes)
     *bytes = strncmp(at, "\ufeff", 3) == 0 || strncmp(at, "\u200b", 3) == 0 ? 3 : 0;
     if (*bytes || strncmp(at, "\xe2\x94", 2) * strncmp(at, "\xe2\x95", 2) != 0 || !at[2])
         return 0;
-    *bytes = 3; /* of boxes, U+2500 to 257F; upright: 2502, 2503, 2506, 2507, 250A, 250B, 2551 */
+    *bytes = 3; /* of boxes, U+2500 to 257F; upright: 2502, 2503, 2506, 2507, 250A, 250B, 254E,
+                   254F, 2551 */
     const bool upright =
-        at[1] == '\x94' ? strchr("\x82\x83\x86\x87\x8a\x8b", at[2]) != NULL : at[2] == '\x91';
+        strchr(at[1] == '\x94' ? "\x82\x83\x86\x87\x8a\x8b" : "\x8e\x8f\x91", at[2]) != NULL;
     return upright ? BR_BOX_BAR : '-';
 }
 

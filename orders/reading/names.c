@@ -222,6 +222,12 @@ static bool is_unit_of(enum br_axis axis, const char *unit)
                  unit);
 }
 
+bool br_is_unit(const char *text)
+{
+    return is_unit_of(BR_AXIS_SPACE, text) || is_unit_of(BR_AXIS_TIME, text) ||
+           lists(" N kN Pa kPa MPa GPa K J W kg rad Hz ", text);
+}
+
 /* "grid_spacing_m": without the unit of length or time at its end. False: it has none. */
 static bool without_unit(const char *name, char text[LONGEST])
 {
@@ -326,6 +332,60 @@ bool br_is_gap(const char *text)
                small);
 }
 
+enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
+{
+    static const struct {
+        enum br_cost cost;
+        const char *words;
+    } costs[] = {
+        {BR_COST_CPU, " cpu cputime "},
+        {BR_COST_WALL, " wall walltime elapsed wallclock "},
+        {BR_COST_TIME, " time seconds sec secs s runtime zeit ms "},
+        {BR_COST_DOFS, " dofs dof ndofs ndof unknowns "},
+        {BR_COST_ITERATIONS, " iterations iteration iters iter its nit niter "},
+        {BR_COST_MEMORY, " memory mem ram mb gb mib gib "},
+    };
+    static const struct {
+        const char *names;
+        double factor;
+        bool of_time;
+    } units[] = {
+        {" s sec secs seconds ", 1, true},
+        {" ms ", 1e-3, true},
+        {" \xc2\xb5s us ", 1e-6, true},
+        {" ns ", 1e-9, true},
+        {" min ", 60, true},
+        {" b bytes ", 1, false},
+        {" kb ", 1e3, false},
+        {" mb ", 1e6, false},
+        {" gb ", 1e9, false},
+        {" kib ", 0x1p10, false},
+        {" mib ", 0x1p20, false},
+        {" gib ", 0x1p30, false},
+    };
+    const size_t count = sizeof costs / sizeof *costs, all = sizeof units / sizeof *units;
+    char word[LONGEST], last[LONGEST] = "";
+    bool part = false; /* "time per step" */
+    enum br_cost found = BR_COSTS;
+    for (size_t i = 0; i < count && found == BR_COSTS; i++)
+        for (const char *at = name; next_word(&at, word);)
+            found = lists(costs[i].words, word) ? costs[i].cost : found;
+    for (const char *at = name; next_word(&at, word); strcpy(last, word))
+        part |= lists(" per ", word);
+    if (unit)
+        plain(unit, last);
+    *factor = 1;
+    if (found == BR_COSTS || part || (found != BR_COST_DOFS && br_kind_of(name) != BR_KIND_COST))
+        return BR_COSTS;
+    const bool of_time = found <= BR_COST_TIME;
+    for (size_t i = 0; i < all && (of_time || found == BR_COST_MEMORY); i++)
+        if (units[i].of_time == of_time && lists(units[i].names, last)) {
+            *factor = units[i].factor;
+            return found;
+        }
+    return unit && *unit ? BR_COSTS : found; /* another unit */
+}
+
 bool br_is_samples(const char *name)
 {
     char text[LONGEST];
@@ -384,6 +444,10 @@ enum br_kind br_kind_of(const char *name)
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
     }
+    at = name;
+    next_word(&at, word);
+    if ((!found || found == BR_KIND_ERROR) && lists(" log log2 log10 ln lg ", word))
+        return BR_KIND_LOGARITHM;
     return found                                            ? found
            : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
            : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A field of a table as a number: first its signs are made those of C, then it is read by a small
  * grammar, whole or not at all:
- *     field     = term [deviation] ["%"]         term = number ["x 10^" number]
+ *     field     = term [deviation | power] ["%"] term = number ["x 10^" number]
  *     deviation = "+-" term | "(12)"                  | number "/" number | number "^" number
- *                                                     | number "x" the same number ... */
+ *     power     = "(-12)" | "(+12)"                   | number "x" the same number ...
+ *                                                     | [number] "pi" ["/" number] */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +29,7 @@ static const struct {
     {"\\num", ""},    {"\\mathbf", ""}, {"\\textbf", ""},    {"\\bf", ""},     {"\\bm", ""},
     {"\\mathrm", ""}, {"\\textit", ""}, {"\\underline", ""}, {"\\emph", ""},   {"\\,", ""},
     {"\\;", ""},      {"\\!", ""},      {"\\%", "%"},        {"$", ""},        {"{", ""},
-    {"}", ""},        {"`", ""},        {"**", ""},
+    {"}", ""},        {"`", ""},        {"**", ""},          {"\u03c0", "pi"}, {"\\pi", "pi"},
 };
 enum { SIGNS = sizeof signs / sizeof *signs, FIRST_RAISED = 13, LAST_RAISED = 24 };
 
@@ -173,10 +174,22 @@ static const char *take_times(struct reader *r, const char *at, double *value)
     return at;
 }
 
+/* "pi", "2pi", "2 pi", "2*pi": pi times a number. */
+static const char *take_pi(struct reader *r, const char *at, double *value)
+{
+    const char *const number = strncmp(at, "pi", 2) == 0 ? at : take_number(r, at, value);
+    const char *pi = number ? skip(number) : NULL;
+    pi += pi && pi > at && *pi == '*';
+    if (!pi || strncmp(pi, "pi", 2) != 0)
+        return number;
+    *value = M_PI * (number == at ? 1 : *value);
+    return pi + 2;
+}
+
 static const char *take_term(struct reader *r, const char *at, double *value)
 {
     double second;
-    at = take_number(r, at, value);
+    at = take_pi(r, at, value);
     if (!at)
         return NULL;
     if (*skip(at) == 'x')
@@ -195,10 +208,18 @@ static const char *take_brackets(struct reader *r, const char *at, struct br_fie
 {
     struct reader inside = *r;
     const int decimals = r->decimals;
+    const bool is_signed = at[1] == '-' || at[1] == '+';
     double power = 0;
     at = take_number(&inside, at + 1, &number->deviation);
     if (!at || *at != ')')
         return NULL;
+    if (!inside.decimals)
+        number->of_power = number->value * pow(10, number->deviation);
+    if (is_signed) {
+        number->value = number->of_power;
+        number->deviation = NAN;
+        return at + 1;
+    }
     if (!inside.decimals)
         number->deviation *= pow(10, r->exponent - decimals);
     at++;
@@ -215,7 +236,7 @@ bool br_field_read(const char *text, char mark, struct br_field_number *number)
 {
     char plain[LONGEST];
     struct reader r = {.mark = mark};
-    *number = (struct br_field_number){NAN, NAN};
+    *number = (struct br_field_number){NAN, NAN, NAN};
     if (!make_plain(text, plain))
         return false;
     const char *at = take_term(&r, plain, &number->value);

@@ -54,13 +54,14 @@ void br_fields_clear(struct br_fields *fields); /* accepts zeros */
 struct br_field_number {
     double value;
     double deviation; /* of "1.2 +- 0.1", "1.2(1)"; NaN: none is given */
+    double of_power;  /* of "1.2(1)" where others of the column are "1.2(-1)": 12; NaN */
 };
 
 /* Whether a field has no number: empty (NULL), "-", "nan", "inf", stars. */
 bool br_field_is_missing(const char *text);
 
 /* Reads a number as tables have it, with this mark of decimals: 1.5D-3, 1.5-103,
- * $1.5\times10^{-3}$, 3/8, 2^-4, 8x8, 5 %. Dates, times and versions are words. */
+ * 1.5(-3), $1.5\times10^{-3}$, 3/8, pi/8, 2^-4, 8x8, 5 %. Dates, times and versions are words. */
 bool br_field_read(const char *text, char mark, struct br_field_number *number);
 
 #endif

@@ -91,25 +91,53 @@ static enum br_status take_degree(struct br_roles *r, size_t i, struct br_error 
     return BR_OK;
 }
 
+/* Takes sizes that halve from row to row (*c, out), if the rates of the table are theirs. */
+static enum br_status try_halves(struct br_roles *r, struct br_candidate *c, struct br_error *err)
+{
+    *c = (struct br_candidate){.size = {br_resolution_column_find("level"), BR_NO_ROW, 1}};
+    c->log_z = br_store_take(&r->store, r->rows + 1, sizeof *c->log_z);
+    size_t *sorted = br_store_take(&r->store, r->rows + 1, sizeof *sorted);
+    if (!c->log_z || !sorted)
+        return br_no_memory(err, "the table");
+    for (int up = 0; up < 2 && !c->agrees_with_rates;
+         up++) { /* the last row is the finest, or the first */
+        for (size_t i = 0; i < r->rows; i++)
+            c->log_z[i] =
+                r->dropped[i] ? (double)NAN : -log(2) * (double)(up ? r->rows - 1 - i : i);
+        br_decide_sort(r, c, sorted);
+        br_evidence_weigh(r, c, sorted);
+    }
+    return BR_OK;
+}
+
+/* Says that the rates of the table are not those of its sizes. */
+static enum br_status compare_rates(struct br_roles *r, const struct br_candidate *over,
+                                    struct br_error *err)
+{
+    struct br_candidate halves;
+    if (r->halves || !over->misses_rates || strstr(r->assumed, "other rates"))
+        return BR_OK;
+    if (try_halves(r, &halves, err))
+        return err->status;
+    r->of_rates = halves.agrees_with_rates
+                      ? "the rates of the table are those of an h that halves from row to row"
+                      : "the rates of the table are not those of these sizes";
+    return BR_OK;
+}
+
 static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
 {
-    struct br_candidate c = {.size = {br_resolution_column_find("level"), BR_NO_ROW, 1}};
+    struct br_candidate c;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_DEGREE)
             return take_degree(r, i, err);
+    for (size_t i = 0; i < r->columns; i++)
+        if (r->column[i].named >= BR_USUAL_NAME && br_roles_check_words(r, i, err))
+            return err->status;
     if (!may_halve(r))
         return br_roles_refuse(r, "found no column of a resolution", NULL, err);
-    c.log_z = br_store_take(&r->store, r->rows + 1, sizeof *c.log_z);
-    size_t *sorted = br_store_take(&r->store, r->rows + 1, sizeof *sorted);
-    if (!c.log_z || !sorted)
-        return br_no_memory(err, "the table");
-    for (int up = 0; up < 2 && !c.agrees_with_rates;
-         up++) { /* the last row is the finest, or the first */
-        for (size_t i = 0; i < r->rows; i++)
-            c.log_z[i] = r->dropped[i] ? (double)NAN : -log(2) * (double)(up ? r->rows - 1 - i : i);
-        br_decide_sort(r, &c, sorted);
-        br_evidence_weigh(r, &c, sorted);
-    }
+    if (try_halves(r, &c, err))
+        return err->status;
     if (!c.agrees_with_rates)
         return br_roles_refuse(r,
                                "found no column of a resolution, and the rates of the table do "
@@ -137,6 +165,7 @@ static const char *why_aside(const struct br_roles *r, size_t i)
         [BR_KIND_DEVIATION] = "deviations of no column",
         [BR_KIND_DEGREE] = "a degree",
         [BR_KIND_REPEAT] = "the number of a run",
+        [BR_KIND_LOGARITHM] = "logarithms: the numbers themselves are expected",
     };
     const struct br_role_column *c = &r->column[i];
     if (c->why)
@@ -365,9 +394,9 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     if (!r->halves)
         br_evidence_weigh(r, &over, sorted);
     take_errors(r, &over, sorted);
-    return number_names(r, err) || check_swap(r, &over, sorted, err) ||
-                   check_residuals(r, sorted, err) || check_rates_alone(r, err) ||
-                   br_roles_take_repeats(r, err)
+    return compare_rates(r, &over, err) || number_names(r, err) ||
+                   check_swap(r, &over, sorted, err) || check_residuals(r, sorted, err) ||
+                   check_rates_alone(r, err) || br_roles_take_repeats(r, err)
                ? err->status
                : BR_OK;
 }

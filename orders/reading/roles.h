@@ -30,8 +30,12 @@ enum br_kind {
     BR_KIND_DEVIATION,
     BR_KIND_DEGREE,
     BR_KIND_REPEAT, /* the number of a repeated run, a seed */
+    BR_KIND_LOGARITHM,
 };
 enum br_kind br_kind_of(const char *name);
+
+/* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or bytes. */
+enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 
 /* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
 int br_power_in(const char *name, char base[20]);
@@ -45,6 +49,9 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
 /* The unit in "dx/m", which ISO and DIN write so, and cuts it off: of a length or a time that is
  * called a size, and of nothing else. NULL: there is none, and the name may have changed. */
 char *br_unit_behind_slash(char *name);
+
+/* Whether a text is a usual unit. */
+bool br_is_unit(const char *text);
 
 /* Whether a name is that of a number of samples, which is no number of elements. */
 bool br_is_samples(const char *name);
@@ -62,6 +69,8 @@ struct br_role_column {
     double named;                /* the greatest of them */
     double *number, *deviation;  /* rows; NaN: none */
     double *rounding;            /* half a unit of the last digit, relative */
+    bool rates_in_brackets;      /* its heading says so: "L2 error (rate)" */
+    const char *unit_of_fields;  /* that each of its fields has; NULL */
     size_t numbers, words, gaps; /* how many fields are one or the other; gaps: "diverged" */
     const char *gap;             /* the last */
     bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
@@ -83,10 +92,11 @@ struct br_size {
 
 /* How a table is read by hand; texts may be NULL. */
 struct br_table_wishes {
-    const char *path;    /* for messages */
-    const char *columns; /* "dx=h,3=l2" */
-    const char *where;   /* "method=P1" */
-    const char *errors, *values;
+    const char *path;      /* for messages */
+    const char *columns;   /* "dx=h,3=l2" */
+    const char *where;     /* "method=P1" */
+    char *errors, *values; /* lists; names of one column but for their case get its case */
+    const char *cost;
     double dimension; /* 0: nobody stated it */
 };
 
@@ -124,6 +134,7 @@ struct br_roles {
     bool means;             /* of rows of one size their mean counts */
     char assumed[400];      /* what is assumed, and what settles it; "": nothing */
     bool assumed_dimension;
+    const char *of_rates; /* that the table's rates are not those of the sizes; static; NULL */
 };
 
 /* Finds the roles (out; clear them even after a failure). Fails with BR_BAD_INPUT where a column
@@ -192,7 +203,7 @@ struct br_candidate {
     struct br_size size;
     double *log_z; /* rows; NaN: none */
     double odds;
-    bool agrees_with_rates, contradicts_rates, wrong_way;
+    bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way;
 };
 
 /* Adds up the evidence for a candidate. sorted: rows from coarse to fine, line after line, and

@@ -175,6 +175,22 @@ static const struct br_series *add_order(const struct br_observed_order *o, cons
     return s.marks;
 }
 
+/* "error, L2 norm (m^{3/2})", or "difference, L2 norm ..." where that is what shows the orders. */
+static void name_errors(const struct br_report *r, enum br_axis axis, enum br_part parts,
+                        struct br_panel *p)
+{
+    static const char difference[] = "difference", error[] = "error";
+    const struct br_norm *norm = r->fitted->norm;
+    enum br_part differences = 0;
+    for (enum br_part part = 0; part < parts; part++)
+        differences += strncmp(r->observed[part][axis].by, difference, strlen(difference)) == 0;
+    BR_SAY(p->y_label, "%s%s (%s)",
+           differences == 0       ? error
+           : differences == parts ? difference
+                                  : "error or difference",
+           norm->symbol + strlen(error), norm->unit_markup);
+}
+
 /* Each part with what its order was found from, and the slopes of theory. */
 static void add_orders(const struct br_report *r, enum br_axis axis, struct br_figure *f)
 {
@@ -185,7 +201,7 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     const struct br_observed_order *total = &r->observed[BR_PART_TOTAL][axis];
     struct br_panel *p = add_panel(r, (int)axis, f);
     const struct br_series *line[BR_PARTS];
-    BR_SAY(p->y_label, "%s, or difference (%s)", s->norm->symbol, s->norm->unit_markup);
+    name_errors(r, axis, parts, p);
     BR_SAY(p->title, "%s", total->by);
     p->top.count = 0; /* the sizes of the order, not of the grid */
     for (size_t i = 0; i < total->points; i++)

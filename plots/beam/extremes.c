@@ -103,7 +103,8 @@ static void draw_plane(const struct br_stability *s, const struct br_stability_p
                        struct br_figure *figure)
 {
     struct br_panel *panel =
-        br_panel_add(figure, p->over_stiffness ? "c_H (N/m)" : "elements n", "k (s)");
+        br_panel_add(figure, p->over_stiffness ? "contact stiffness c_H (N/m)" : "elements n",
+                     "time step k (s)");
     panel->log_x = panel->log_y = true;
     if (p->over_stiffness)
         BR_SAY(panel->title, "%s, n = %zu", p->by->name, p->column[0].n);

@@ -88,19 +88,13 @@ static void add_trial(const struct br_trade_picture *p, const struct br_trial *t
 static void add_front(const struct br_trade_picture *p, const struct br_trade *t,
                       const struct br_named_method *only, struct br_series *s)
 {
-    size_t kept = 0;
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
         if ((only ? trial->named == only : p->shows(t, trial->named)) &&
             isfinite(br_trial_bound(trial)) && has_position(p, trial))
             add_trial(p, trial, s);
     }
-    br_series_sort(s);
-    for (size_t i = 0; i < s->count; i++)
-        if (!kept || s->point[i].y < s->point[kept - 1].y)
-            s->point[kept++] = s->point[i];
-    s->count = kept;
-    s->stairs = true;
+    br_series_stairs(s);
 }
 
 static const struct {

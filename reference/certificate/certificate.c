@@ -177,35 +177,61 @@ static double depth_of(const struct br_checked_step *s)
     return u - s->scene->contact.gap;
 }
 
+static double tresca(const struct br_friction *f, double depth)
+{
+    (void)depth;
+    return f->coefficient;
+}
+
+static double coulomb(const struct br_friction *f, double depth)
+{
+    return f->coefficient * depth;
+}
+
+/* The bounds as a reference has them. A law without a row gets NaN, which passes no check.
+ * `steepest`: most that a bound grows with the depth, over its coefficient. */
+static const struct {
+    double (*bound)(const struct br_friction *friction, double depth);
+    double steepest;
+} friction_laws[BR_FRICTION_LAWS] = {[BR_TRESCA] = {tresca, 0}, [BR_COULOMB] = {coulomb, 1}};
+
+/* h at that depth, which is not positive where there is no contact. */
+static double bound_at(const struct br_checked_step *s, double depth)
+{
+    const struct br_friction *f = &s->scene->friction;
+    return friction_laws[f->law].bound ? friction_laws[f->law].bound(f, depth) : NAN;
+}
+
 /* h(t_n), from the nodal u_n. */
 static double bound_of(const struct br_checked_step *s)
 {
-    const struct br_scene *scene = s->scene;
-    if (scene->friction.law == BR_TRESCA)
-        return scene->friction.coefficient;
-    if (scene->friction.law != BR_COULOMB)
-        return 0;
-    return scene->friction.coefficient * positive(depth_of(s));
+    const bool follows = friction_laws[s->scene->friction.law].steepest > 0;
+    return bound_at(s, follows ? positive(depth_of(s)) : 0);
+}
+
+/* How the bound follows the depth, N/m. */
+static double steepness(const struct br_checked_step *s)
+{
+    return friction_laws[s->scene->friction.law].steepest * s->scene->friction.coefficient;
 }
 
 /* Distance of the bound from `wanted`, N, less the round-off of the axial velocities: the march has
  * the depth from its contact force, the certificate from the nodes. */
 static double bound_error(const struct br_checked_step *s, double wanted)
 {
-    const double way = s->scene->friction.law == BR_COULOMB && s->scene->axial.modelled
-                           ? s->k * velocity_round_off(s, BR_AXIAL)
-                           : 0;
-    return positive(fabs(s->tip.friction_bound - wanted) - s->scene->friction.coefficient * way);
+    const double left =
+        steepness(s) > 0 ? steepness(s) * s->k * velocity_round_off(s, BR_AXIAL) : 0;
+    return positive(fabs(s->tip.friction_bound - wanted) - left);
 }
 
 /* The size to which the bound is rounded where it is found from u_n - g. */
 static double bound_scale(const struct br_checked_step *s)
 {
-    if (s->scene->friction.law != BR_COULOMB)
+    if (!(steepness(s) > 0))
         return 0;
     const double ways =
         field_scale(s, BR_AXIAL) + static_distance(s, BR_AXIAL, s->tip.contact_force);
-    return s->scene->friction.coefficient * (ways + s->scene->contact.gap);
+    return steepness(s) * (ways + s->scene->contact.gap);
 }
 
 /* Errors of lambda and of v = v* - lambda z that an iteration may leave, and the round-off of v. */
@@ -282,7 +308,7 @@ static int contact_branches(const struct br_checked_step *s, double distance[BR_
 static double prolonged_bound(const struct br_checked_step *s)
 {
     const bool open = br_contact_stiffness(&s->scene->contact) > 0 && s->tip.contact_force == 0;
-    return open ? 0 : s->scene->friction.coefficient * depth_of(s);
+    return open ? 0 : bound_at(s, depth_of(s));
 }
 
 /* The bound may also be that of a prolonged contact. */
@@ -297,7 +323,7 @@ static int friction_branches(const struct br_checked_step *s, double distance[BR
     const double force = with_last_bit(s, BR_BENDING, BR_SCALE_LAW,
                                        br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s));
     double stated = bound_error(s, bound_of(s));
-    if (scene->friction.law == BR_COULOMB)
+    if (steepness(s) > 0)
         stated = smaller(stated, bound_error(s, prolonged_bound(s)));
     stated = ratio(stated, force);
     const double v = fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity));

@@ -294,6 +294,10 @@ static enum br_status check(const struct br_scene *scene, const struct br_exact_
     const enum br_status status = br_scene_check(scene, err);
     if (status)
         return status;
+    if (!br_law_is_known(&scene->friction))
+        return br_fail(err, BR_BAD_INPUT,
+                       "the exact solution does not know the scene's law of friction, expected "
+                       "another reference, as --reference fine:N,K");
     const bool still = (scene->axial.modelled && !(scene->axial.viscosity > 0)) ||
                        (scene->bending.modelled && !(scene->bending.viscosity > 0));
     if (still && !(scene->density > 0))
@@ -364,7 +368,6 @@ struct search {
 static struct br_exact_law law_of(const struct br_scene *s, enum br_field_kind which,
                                   const struct br_history *axial)
 {
-    const struct br_friction *f = &s->friction;
     if (which == BR_AXIAL)
         return (struct br_exact_law){
             .contact = true,
@@ -372,9 +375,8 @@ static struct br_exact_law law_of(const struct br_scene *s, enum br_field_kind w
             .stiffness = s->contact.modelled ? br_contact_stiffness(&s->contact) : 0,
         };
     return (struct br_exact_law){
-        .friction = f->law,
-        .coefficient = f->coefficient,
-        .axial = f->law == BR_COULOMB ? axial : NULL,
+        .friction = s->friction,
+        .axial = br_law_follows(&s->friction) ? axial : NULL,
     };
 }
 

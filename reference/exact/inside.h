@@ -333,10 +333,14 @@ struct br_exact_law {
     bool contact;                   /* (10), on the axial field; else (12), on the bending field */
     bool obstacle;                  /* whether there is one to be in contact with */
     double stiffness;               /* c_H, N/m; 0 without a contact */
-    enum br_friction_law friction;  /* of the bending field */
-    double coefficient;             /* c_V */
-    const struct br_history *axial; /* whose tip sets Coulomb's bound; borrowed */
+    struct br_friction friction;    /* of the bending field */
+    const struct br_history *axial; /* whose tip sets the bound; NULL: it does not; borrowed */
 };
+
+/* Whether the exact solution has the bound of a law, in a table of its own, and whether that bound
+ * depends on the contact. */
+bool br_law_is_known(const struct br_friction *friction);
+bool br_law_follows(const struct br_friction *friction);
 
 /* The friction bound b(t), N. */
 double br_law_bound(const struct br_exact_law *law, double t);

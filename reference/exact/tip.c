@@ -5,17 +5,41 @@
 
 enum { S = BR_STAGES };
 
+static double tresca(const struct br_friction *f, double depth)
+{
+    (void)depth;
+    return f->coefficient;
+}
+
+static double coulomb(const struct br_friction *f, double depth)
+{
+    return f->coefficient * depth;
+}
+
+/* By law: the bound at the depth (u(L) - g)_+, which is smooth for depths above 0, and whether it
+ * depends on it: then it is 0 at 0. */
+static const struct {
+    double (*bound)(const struct br_friction *friction, double depth);
+    bool follows;
+} laws[BR_FRICTION_LAWS] = {[BR_TRESCA] = {tresca, false}, [BR_COULOMB] = {coulomb, true}};
+
+bool br_law_is_known(const struct br_friction *friction)
+{
+    return friction->law == BR_FRICTIONLESS || laws[friction->law].bound;
+}
+
+bool br_law_follows(const struct br_friction *friction)
+{
+    return laws[friction->law].follows;
+}
+
 double br_law_bound(const struct br_exact_law *law, double t)
 {
-    switch (law->friction) {
-    case BR_TRESCA:
-        return law->coefficient;
-    case BR_COULOMB:
-        return law->coefficient * fmax(br_history_at(law->axial, t, NULL, NULL).displacement, 0);
-    case BR_FRICTIONLESS:
-        break;
-    }
-    return 0;
+    if (law->friction.law == BR_FRICTIONLESS)
+        return 0;
+    const double depth =
+        law->axial ? fmax(br_history_at(law->axial, t, NULL, NULL).displacement, 0) : 0;
+    return laws[law->friction.law].bound(&law->friction, depth);
 }
 
 enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_phase now,
@@ -26,10 +50,9 @@ enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_pha
             return BR_FREE;
         return displacement > 0 || (displacement == 0 && velocity >= 0) ? BR_CLOSED : BR_OPEN;
     }
-    if (!(law->coefficient > 0) || law->friction == BR_FRICTIONLESS)
+    if (!(law->friction.coefficient > 0) || law->friction.law == BR_FRICTIONLESS)
         return BR_FREE;
-    if (law->friction == BR_COULOMB &&
-        law->axial->tip[br_history_find(law->axial, t)].phase != BR_CLOSED)
+    if (law->axial && law->axial->tip[br_history_find(law->axial, t)].phase != BR_CLOSED)
         return BR_FREE;
     if (now != BR_FREE)
         return now;

@@ -38,10 +38,17 @@ static const struct br_field_solver *own_solver(const struct br_linear_solver *s
     return br_field_is_quadratic(field) ? solver->axial_quadratic : solver->axial;
 }
 
-double br_cost_by_elements(const struct br_linear_solver *row, const struct br_field *field,
-                           double sums)
+bool br_linear_solver_chooses(const struct br_linear_solver *row)
+{
+    return !row->axial && !row->axial_quadratic && !row->bending;
+}
+
+double br_linear_solver_cost(const struct br_linear_solver *row, const struct br_field *field,
+                             double sums)
 {
     static const struct br_by_element sum = {0.65, 1.3, 1.3};
+    if (row->cost)
+        return row->cost(field, sums);
     return row->step_cost + 42 * sums +
            (double)field->n *
                (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
@@ -50,13 +57,13 @@ double br_cost_by_elements(const struct br_linear_solver *row, const struct br_f
 const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_solver *solver,
                                                       const struct br_field *field, double sums)
 {
-    if (solver->cost)
+    if (!br_linear_solver_chooses(solver))
         return solver;
     const struct br_linear_solver *best = NULL;
     double least = INFINITY;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
-        const double cost =
-            (*s)->cost && own_solver(*s, field) ? (*s)->cost(*s, field, sums) : INFINITY;
+        const bool known = own_solver(*s, field) && ((*s)->cost || (*s)->step_cost > 0);
+        const double cost = known ? br_linear_solver_cost(*s, field, sums) : INFINITY;
         if (cost < least) {
             least = cost;
             best = *s;

@@ -120,16 +120,20 @@ struct br_linear_solver {
     struct br_by_element bytes, state_bytes;
 
     /* The measured time of a step of one stage for a field, ns, with the march's own work; sums:
-     * passes over the states that the scheme adds to a stage (br_time_scheme_sums). NULL: the row
-     * is no solver but a choice, of the row that costs least. */
-    double (*cost)(const struct br_linear_solver *row, const struct br_field *field, double sums);
+     * passes over the states that the scheme adds to a stage (br_time_scheme_sums). NULL: by the
+     * two members below, on an AMD EPYC with AVX-512 at about 3 GHz; where these are 0, too, the
+     * cost is not known, and no choice takes the row. */
+    double (*cost)(const struct br_field *field, double sums);
     double step_cost;                  /* ns, without sums: of a step and the start of its solve */
     struct br_by_element element_cost; /* and of each element */
 };
 
-/* The cost by step_cost and element_cost, on an AMD EPYC with AVX-512 at about 3 GHz. */
-double br_cost_by_elements(const struct br_linear_solver *row, const struct br_field *field,
-                           double sums);
+/* Whether the row has no solver of its own: it is a choice, of the row that costs least. */
+bool br_linear_solver_chooses(const struct br_linear_solver *row);
+
+/* See br_linear_solver.cost. */
+double br_linear_solver_cost(const struct br_linear_solver *row, const struct br_field *field,
+                             double sums);
 
 extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack;
 

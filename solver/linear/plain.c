@@ -153,7 +153,6 @@ const struct br_linear_solver br_long_plain = {
     .round_off = round_off,
     .bytes = {184, 436, 282},
     .state_bytes = {32, 64, 64},
-    .cost = br_cost_by_elements,
     .step_cost = 120,
     .element_cost = {10, 28, 16},
 };
@@ -177,7 +176,6 @@ const struct br_linear_solver br_plain = {
     .round_off = round_off,
     .bytes = {92, 218, 141},
     .state_bytes = {16, 32, 32},
-    .cost = br_cost_by_elements,
     .step_cost = 120,
     .element_cost = {2.5, 7.1, 3.9},
 };

@@ -512,7 +512,6 @@ const struct br_linear_solver br_umfpack = {
     .residual = residual,
     .bytes = {394, 1046, 0},
     .state_bytes = {16, 32, 0},
-    .cost = br_cost_by_elements,
     .step_cost = 170,
     .element_cost = {18.9, 36.2, 0},
 };

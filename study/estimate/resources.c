@@ -1,8 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/clock.h"
-#include "solver/linear/linear_solver.h"
-#include "solver/march.h"
-#include "solver/scene.h"
 #include "study/estimate/warnings.h"
 
 #include <math.h>
@@ -10,49 +6,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-/* Nodal arrays of a march beside its solvers, bytes an element. */
-static const double nodal_arrays = 80;
-
 static const double day = 86400, most_days = 36525; /* a century */
-
-double br_march_bytes(const struct br_planned_march *o)
-{
-    const double states = br_time_scheme_kept(o->method->scheme);
-    double element = nodal_arrays;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_field field =
-            br_field_of_scene(o->scene, kind, o->n, 1, o->method->axial_degree);
-        const struct br_linear_solver *l = br_method_solver(o->method, &field);
-        if (o->scene->field[kind].modelled)
-            element += br_by_element_of(&l->bytes, &field) +
-                       states * br_by_element_of(&l->state_bytes, &field);
-    }
-    return element * (double)o->n;
-}
-
-double br_march_seconds(const struct br_planned_march *o)
-{
-    if (o->method->scheme->adaptive)
-        return 0;
-    return 1e-9 * (double)o->steps * br_method_cost(o->method, o->scene, o->n);
-}
-
-double br_march_pace(const struct br_planned_march *o)
-{
-    enum { MESH = 400, STEPS = 400 };
-    const size_t n = o->n < MESH ? o->n : MESH;
-    struct br_march *march;
-    struct br_error err;
-    if (o->method->scheme->adaptive || br_march_create(&march, o->scene, n, STEPS, o->method, &err))
-        return 1;
-    const double begun = br_thread_seconds();
-    enum br_status status = BR_OK;
-    for (int i = 0; i < STEPS && !status; i++)
-        status = br_march_step(march, &err);
-    const double spent = br_thread_seconds() - begun;
-    br_march_free(march);
-    return status ? 1 : spent / (1e-9 * STEPS * br_method_cost(o->method, o->scene, n));
-}
 
 /* The number after a word in a file, times its unit in bytes; INFINITY: not found. */
 static double read_bytes(const char *path, const char *word, double unit)
@@ -105,6 +59,20 @@ enum br_status br_fits_memory(const struct br_planned_march *o, double available
                    "n = %zu elements take about %.3g GB (%.0f bytes each), %.3g GB are available: "
                    "expected at most %.3g elements",
                    o->n, bytes / 1e9, bytes / (double)o->n, available / 1e9, fit);
+}
+
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err)
+{
+    struct br_costs w = {.together = true};
+    for (size_t i = 0; i < count; i++)
+        br_costs_add_study(&w, &studies[i]);
+    if (w.bytes <= available)
+        return BR_OK;
+    return br_fail(err, BR_NO_MEMORY,
+                   "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
+                   "of them, or fewer elements",
+                   w.marches, w.bytes / 1e9, available / 1e9);
 }
 
 static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,

@@ -4,7 +4,7 @@
 #ifndef BR_STUDY_ESTIMATE_WARNINGS_H
 #define BR_STUDY_ESTIMATE_WARNINGS_H
 
-#include "solver/method.h"
+#include "study/grid/costs.h"
 
 /* A list keeps the first warning of each kind and counts the others. */
 enum br_warning_kind {
@@ -42,18 +42,6 @@ __attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
                                                    enum br_warning_kind kind, const char *remedy,
                                                    const char *format, ...);
 
-struct br_prediction;
-
-/* A march that is planned. All borrowed. The scene has only the fields that are marched
- * (study/run/run.h). */
-struct br_planned_march {
-    const struct br_scene *scene;
-    const struct br_method *method;
-    size_t n, steps;
-    struct br_prediction *prediction; /* out: the predicted errors; NULL: not wanted */
-    double budget; /* work of a prediction, elements times solves; 0: as prediction.h says */
-};
-
 /* Runs all checks on a march before it begins, and adds their warnings. An unknown error is no
  * failure. Fails with BR_BAD_INPUT or BR_NO_MEMORY if the march is refused; the message has the
  * figures. To add a check: a function, and a call in warnings.c. */
@@ -84,17 +72,7 @@ void br_check_contact(const struct br_planned_march *planned, struct br_warnings
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);
 
-/* ---- memory and time of a march (resources.c) ---- */
-
-/* An upper bound of the bytes of a march, from measured bytes an element. */
-double br_march_bytes(const struct br_planned_march *planned);
-
-/* Approximate seconds of a march in one thread; 0 for an adaptive scheme: not known. */
-double br_march_seconds(const struct br_planned_march *planned);
-
-/* Seconds of the processor for some of its steps, on few elements, over those of the registry's
- * costs; 1 where they cannot be marched. */
-double br_march_pace(const struct br_planned_march *planned);
+/* ---- memory (resources.c) ---- */
 
 /* Bytes that are still available: the least of MemAvailable of /proc/meminfo and of the remaining
  * limits of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
@@ -104,5 +82,10 @@ double br_memory_available(void);
  * figures. */
 enum br_status br_fits_memory(const struct br_planned_march *planned, double available,
                               struct br_error *err);
+
+/* The same of studies: br_study_run has all cells and fine references in memory at once. They need
+ * not be prepared. */
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err);
 
 #endif

@@ -19,7 +19,7 @@
 static void add_solvers(struct br_floors *f)
 {
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
-        if ((*s)->cost) /* else it chooses one of the others */
+        if (!br_linear_solver_chooses(*s))
             br_named_methods_add(&f->method, NULL, "%s", (*s)->name);
     f->solvers = f->method.count;
 }

@@ -108,8 +108,10 @@ static void say_too_few(struct br_observed_order *o, const struct sought *l, con
                l->count == 1 ? "" : "s", BR_ORDERS_LEAST);
 }
 
-/* Why errors that do not fall as an order does show none, with what they do. */
-static void say_uneven(struct br_observed_order *o, const struct sought *l, enum br_axis axis)
+/* Why errors that do not fall as an order does show none, with what they do. advised: smaller sizes
+ * are advised then. Returns whether larger ones may show the order. */
+static bool say_uneven(struct br_observed_order *o, const struct sought *l, enum br_axis axis,
+                       bool advised)
 {
     bool falls = true;
     for (size_t i = 0; i + 1 < l->count; i++)
@@ -123,9 +125,10 @@ static void say_uneven(struct br_observed_order *o, const struct sought *l, enum
             REMARK(o, "%s%.1e", i ? ", " : " ", l->point[i]->error);
     }
     const double closer = falls ? comes_closer(o, l) : 1;
-    if (fabs(closer) > clear)
+    if (fabs(closer) > clear && !(advised && closer > 0))
         REMARK(o, "; a %s %s may show the order", closer > 0 ? "smaller" : "larger",
                br_axis_letters[axis]);
+    return closer < -clear;
 }
 
 /* What more marches may settle an order that differences leave open. */
@@ -200,6 +203,7 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
     const struct br_orders_answer *a = &of->answer[axis];
     const struct br_study *compared = r->compared[axis];
     const struct sought l = sought_in(a->line);
+    bool larger = false;
     o->order = a->order;
     o->joint = a->joint && !a->open;
     name_source(o, r->fitted, compared, of, axis);
@@ -213,8 +217,8 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
     else if (a->joint || a->open != br_orders_uneven)
         REMARK(o, "not measurable: %s", a->open);
     else
-        say_uneven(o, &l, axis);
-    if (compared && !agrees(o) && !r->printed && (a->open || isfinite(o->theory.order)))
+        larger = say_uneven(o, &l, axis, compared && !r->printed);
+    if (compared && !agrees(o) && !r->printed && (a->open || isfinite(o->theory.order)) && !larger)
         advise(o, r->fitted, axis, l.flag);
 }
 

@@ -10,11 +10,11 @@
  *   - This needs data that are smooth inside the elements. Loads are integrated by Gauss' rule. A
  *     jump inside an element costs it O(h), which depends on where in the element it is, a kink
  *     O(h^2). Initial data are interpolated: a kink leaves O(h^(3/2)) in L2.
- *   - Coulomb's bound is c_V (u(L) - g)_+, and u(L) has the order of the rod's tip, 2 for linear
- *     elements with mass. Friction is Lipschitz in its bound and works on the whole beam. So the
- *     error of w is A h^2 + B h^4, and its order anything from 2 to 4: 2 as h -> 0, but 4 as long
- *     as A h^2, which is proportional to the rod's mass, is small. Laws at the tip are Lipschitz,
- *     so switching costs no order in h.
+ *   - A bound that follows the contact, as Coulomb's, c_V (u(L) - g)_+, uses u(L), which has the
+ * order of the rod's tip, 2 for linear elements with mass. Friction is Lipschitz in its bound and
+ * works on the whole beam. So the error of w is A h^2 + B h^4, and its order anything from 2 to 4:
+ * 2 as h -> 0, but 4 as long as A h^2, which is proportional to the rod's mass, is small. Laws at
+ * the tip are Lipschitz, so switching costs no order in h.
  *
  * In k, on one mesh. A scheme has its order where the solution is smooth in time. The lagged
  * contact takes its force one step late, O(k): Campo et al. (2006), Theorem 2.3 and Remark 2.5 with
@@ -28,7 +28,7 @@
 #include <stdio.h>
 
 #include "base/words.h"
-#include "solver/scene.h"
+#include "solver/laws.h"
 
 enum { DERIVATIVES = 4 };
 static const double beside = 1e-9; /* of a cell: what lies nearer to its end is at its end */
@@ -90,9 +90,29 @@ static bool starts_at_rest(const struct br_scene_field *d)
            (br_function_is_zero(&d->displacement) && br_function_is_zero(&d->velocity));
 }
 
+/* ---- what a norm measures ---- */
+
+/* A rate has a derivative in time, which starts with one order less. */
+enum { IS_RATE = 1, AT_TIP = 2 };
+
+static int what_is(enum br_measure measure)
+{
+    switch (measure) {
+    case BR_DISPLACEMENT:
+    case BR_MEASURES:
+        break;
+    case BR_VELOCITY:
+    case BR_STRAIN_RATE:
+        return IS_RATE;
+    case BR_TIP:
+        return AT_TIP;
+    }
+    return 0;
+}
+
 /* ---- in h ---- */
 
-/* Of a field without Coulomb's bound. */
+/* Of a field whose laws leave its order. */
 static struct br_theory of_elements(const struct br_study *s, enum br_field_kind kind)
 {
     const struct br_scene *scene = s->scene;
@@ -103,9 +123,10 @@ static struct br_theory of_elements(const struct br_study *s, enum br_field_kind
                   is_smooth(&d->velocity, BR_X, s->n[0], scene);
     for (size_t i = 0; i < BR_LOAD_TERMS && smooth; i++)
         smooth = is_smooth(&d->load.term[i].space, BR_X, s->n[0], scene);
-    const bool tip = s->norm->level == br_norm_tip.level;
+    const bool tip = what_is(s->norm->level) & AT_TIP;
     const double order =
-        tip ? 2 * (degree + 1 - derivatives) : degree + 1 - (s->norm->energy ? derivatives : 0);
+        tip ? 2 * (degree + 1 - derivatives)
+            : degree + 1 - (br_norm_needs(s->norm, BR_STRAIN_RATE) ? derivatives : 0);
     if (s->method.scheme->adaptive)
         return none(order, "each mesh has time steps of its own");
     if (!smooth)
@@ -123,17 +144,22 @@ static struct br_theory of_beam(const struct br_study *s)
     struct br_study rod = *s;
     rod.norm = &br_norm_tip;
     const struct br_theory bound = of_elements(&rod, BR_AXIAL);
+    const struct br_friction *friction = &s->scene->friction;
     const bool exact = s->scene->density == 0 && s->method.axial_degree == 1;
-    if (s->scene->friction.law != BR_COULOMB || s->scene->friction.coefficient == 0 || exact ||
+    if (!br_friction_follows_contact(friction) || friction->coefficient == 0 || exact ||
         isnan(t.order) || bound.order >= t.order)
         return t;
-    if (isnan(bound.order))
-        return none(t.formal, "Coulomb's bound uses u(L) of a rod whose data are not smooth");
+    const char *title = br_friction_models[friction->law].title;
     t.order = bound.order;
-    snprintf(t.reason, sizeof t.reason,
-             "Coulomb's bound uses u(L) of linear elements, accurate to h^2; --axial-degree 2 "
-             "gives %g",
-             t.highest);
+    if (isnan(bound.order)) {
+        t.highest = NAN;
+        snprintf(t.reason, sizeof t.reason,
+                 "%s's bound uses u(L) of a rod whose data are not smooth", title);
+    } else
+        snprintf(t.reason, sizeof t.reason,
+                 "%s's bound uses u(L) of linear elements, accurate to h^2; --axial-degree 2 "
+                 "gives %g",
+                 title, t.highest);
     return t;
 }
 
@@ -182,16 +208,16 @@ static struct br_theory in_k(const struct br_study *s, enum br_part part)
     const int order = s->method.scheme->order;
     const bool beam = scene->bending.modelled && br_part_has(part, BR_BENDING),
                rod = scene->axial.modelled &&
-                     (br_part_has(part, BR_AXIAL) || scene->friction.law == BR_COULOMB),
+                     (br_part_has(part, BR_AXIAL) || br_friction_follows_contact(&scene->friction)),
                contact = scene->contact.modelled && rod,
                lags = contact && !s->method.contact->at_new_step;
-    const int zeros = (s->norm->energy ? 1 : 0) + (lags ? 1 : order) - 1;
+    const int zeros = (what_is(s->norm->level) & IS_RATE) + (lags ? 1 : order) - 1;
     const char *why = rod ? what_spoils(scene, BR_AXIAL, zeros) : NULL;
     if (s->method.scheme->adaptive)
         why = "the scheme chooses its own steps";
     if (!why && beam)
         why = what_spoils(scene, BR_BENDING, zeros);
-    if (!why && order > 1 && !lags && (contact || (beam && scene->friction.law != BR_FRICTIONLESS)))
+    if (!why && order > 1 && !lags && (contact || (beam && br_friction_rubs(&scene->friction))))
         why = "the tip may switch inside a time step, which lowers orders above 1";
     return why ? none(lags ? 1 : order, why) : of_order(lags ? 1 : order);
 }

@@ -10,53 +10,8 @@
 #include "base/statement.h"
 #include "base/text.h"
 #include "solver/scene.h"
+#include "study/grid/costs.h"
 #include "study/grid/sweep.h"
-
-/* ---- costs ---- */
-
-/* ns, measured on one core, n = 100 to 3200, 1e3 to 1e4 time levels, scaled to the 3 GHz of
- * the solvers' costs. They decide who does what, not the results: a wrong one costs time. */
-static const double measure_ns = 12;       /* to sample an element's field, and to project there */
-static const double sample_fine_ns = 15;   /* to sample an element's field of a fine run */
-static const double sample_exact_ns = 30;  /* to evaluate an element's field of a solution, */
-static const double sample_given_ns = 100; /* of one that is given */
-static const double create_ns = 3.3e7;     /* a solution of the continuous problem */
-
-static double fields(const struct br_scene *scene)
-{
-    return (double)scene->axial.modelled + (double)scene->bending.modelled;
-}
-
-/* The reference is sampled at every time level of a cell: about as often as the cell of most
- * steps. */
-double br_reference_cost(const struct br_study *s)
-{
-    size_t levels = 0, n = 0;
-    for (size_t j = 0; j < s->k_count; j++)
-        levels = s->steps[j] > levels ? s->steps[j] : levels;
-    for (size_t i = 0; i < s->n_count; i++)
-        n = s->n[i] > n ? s->n[i] : n;
-    if (!s->reference_kind->nests)
-        return create_ns +
-               (s->reference_kind == &br_reference_mms ? sample_given_ns : sample_exact_ns) *
-                   fields(s->scene) * (double)levels * (double)n;
-    return br_method_cost(&s->reference_method, s->scene, s->reference.n) *
-               (double)s->reference.steps +
-           sample_fine_ns * fields(s->scene) * (double)levels * (double)s->reference.n;
-}
-
-double br_measure_cost(const struct br_scene *scene, size_t n)
-{
-    return measure_ns * fields(scene) * (double)n;
-}
-
-double br_cell_cost(const struct br_study *s, size_t cell)
-{
-    const struct br_resolution at = br_study_resolution(s, cell);
-    return (br_method_cost(br_study_method(s, cell), s->scene, at.n) +
-            br_measure_cost(s->scene, at.n)) *
-           (double)at.steps;
-}
 
 /* ---- slices of a study ---- */
 
@@ -88,7 +43,7 @@ double br_slice_cells(const struct br_study *s, size_t slices, size_t *slice)
     struct priced *cell = br_allocate(cells, sizeof *cell);
     double *load = br_allocate(slices, sizeof *load), most = -1;
     for (size_t i = 0; cell && i < cells; i++)
-        cell[i] = (struct priced){br_cell_cost(s, i), i};
+        cell[i] = (struct priced){br_cell_seconds(s, i), i};
     if (cell && load)
         qsort(cell, cells, sizeof *cell, dearest_first);
     for (size_t i = 0; cell && load && i < cells; i++) {
@@ -107,15 +62,15 @@ double br_slice_cells(const struct br_study *s, size_t slices, size_t *slice)
 /* A study, cut. */
 struct cut {
     size_t slices; /* 0: it has failed */
-    double cost;   /* of its dearest slice, reference included, about, ns */
+    double cost;   /* of its dearest slice, reference included, about, s */
 };
 
 static double whole_cost(const struct br_study *s, double *dearest)
 {
-    double cost = br_reference_cost(s);
+    double cost = br_reference_seconds(s);
     *dearest = 0;
     for (size_t i = 0; i < br_study_cells(s); i++) {
-        const double cell = br_cell_cost(s, i);
+        const double cell = br_cell_seconds(s, i);
         cost += cell;
         *dearest = fmax(*dearest, cell);
     }
@@ -136,7 +91,7 @@ static double whole_cost(const struct br_study *s, double *dearest)
  * level. */
 static struct cut cut(const struct br_study *s, double most, size_t idle)
 {
-    const double reference = br_reference_cost(s);
+    const double reference = br_reference_seconds(s);
     double dearest;
     struct cut cut = {1, whole_cost(s, &dearest)};
     const double cells = cut.cost - reference;
@@ -177,7 +132,7 @@ enum br_status br_batches_create(struct br_batches *b, const struct br_study *st
             continue;
         double dearest;
         total += whole_cost(&studies[s], &dearest);
-        most = fmax(most, br_reference_cost(&studies[s]) + dearest);
+        most = fmax(most, br_reference_seconds(&studies[s]) + dearest);
         sound++;
     }
     most = fmax(most, total / (2 * ranks));

@@ -13,7 +13,7 @@
 /* Which batch each cell belongs to; batches of lower numbers begin first. */
 struct br_batches {
     size_t count;
-    double *cost; /* of each batch, about, ns of one thread; owned */
+    double *cost; /* of each batch, about, s of one thread; owned */
     size_t *of;   /* of each cell, the studies one after the other: its batch; SIZE_MAX: none, since
                      its study has failed. Owned */
 };
@@ -39,14 +39,8 @@ enum br_status br_batches_read(struct br_study *studies, size_t count,
                                const struct br_batches *batches, char *bytes, size_t size,
                                struct br_error *err);
 
-/* The approximate cost of a cell of a study, and of its reference, ns of one thread; of the cell's,
- * that of its error at one time level of n elements. */
-double br_measure_cost(const struct br_scene *scene, size_t n);
-double br_cell_cost(const struct br_study *study, size_t cell);
-double br_reference_cost(const struct br_study *study);
-
 /* Which slice each cell belongs to (out, br_study_cells), so that all cost about the same. Returns
- * the largest cost of a slice's cells, ns. -1: out of memory. */
+ * the largest cost of a slice's cells, s. -1: out of memory. */
 double br_slice_cells(const struct br_study *study, size_t slices, size_t *slice);
 
 /* A hash of what studies ask (base/statement.h), equal on ranks that have read the same

@@ -18,7 +18,7 @@ const struct br_norm br_norm_l2 = {
     .name = "l2",
     .title = "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 "
              "norms, m^(3/2).",
-    .symbol = "error (31)",
+    .symbol = "error, L2 norm",
     .unit = "m^(3/2)",
     .unit_markup = "m^{3/2}",
     .theory = "(26) bounds the error by c (h^(1/2) + k), Remark 2.5 by c (h + k).",
@@ -31,7 +31,7 @@ const struct br_norm br_norm_energy = {
     .title = "Error (25), the root of its left side: the largest |u_t - v_hk|^2 + |w_t - v_hk|^2 "
              "over all time levels of a cell, plus the sum over them of k (L^2 |u_xt - v_hk,x|^2 + "
              "L^4 |w_xxt - v_hk,xx|^2) / T, L2 norms, m^(3/2)/s. (The paper has L = T = 1.)",
-    .symbol = "error (25)",
+    .symbol = "error, energy norm",
     .unit = "m^(3/2)/s",
     .unit_markup = "m^{3/2}/s",
     .theory = "Theorem 2.3 is about this norm: (26) bounds it by c (h^(1/2) + k), Remark 2.5 by "

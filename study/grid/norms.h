@@ -31,7 +31,7 @@ extern const char *const br_part_names[BR_PARTS];
 struct br_norm {
     const char *name;               /* as on the command line, and in file names */
     const char *title;              /* a sentence for a person: what the error is */
-    const char *symbol;             /* a few words, for the axis of a plot */
+    const char *symbol;             /* a few words, for the axis of a plot: error, and which */
     const char *unit, *unit_markup; /* plain, for gnuplot */
     const char *theory;             /* a sentence: what is proved of it */
     enum br_measure level;          /* its largest value over the time levels counts */

@@ -4,6 +4,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "solver/laws.h"
+
 enum br_status br_model_select(const struct br_scene *scene, unsigned wanted,
                                struct br_scene *marched, struct br_error *err)
 {
@@ -13,17 +15,20 @@ enum br_status br_model_select(const struct br_scene *scene, unsigned wanted,
     if ((wanted & BR_WANT_BENDING) && !scene->bending.modelled)
         return br_fail(err, BR_BAD_INPUT,
                        "--fields: found bending, but the scene has no bending part");
-    const bool tresca = scene->friction.law == BR_TRESCA;
+    const struct br_friction *friction = &scene->friction;
+    const bool alone = br_friction_rubs(friction) && !br_friction_follows_contact(friction);
     marched->axial.modelled =
-        scene->axial.modelled && (wanted ? (wanted & BR_WANT_AXIAL) != 0 : !tresca);
+        scene->axial.modelled && (wanted ? (wanted & BR_WANT_AXIAL) != 0 : !alone);
     marched->bending.modelled = scene->bending.modelled && (!wanted || (wanted & BR_WANT_BENDING));
     marched->contact.modelled = scene->contact.modelled && marched->axial.modelled;
     if (!marched->bending.modelled)
         marched->friction.law = BR_FRICTIONLESS;
-    if (marched->friction.law == BR_COULOMB && !marched->contact.modelled)
+    if (br_friction_follows_contact(&marched->friction) && !marched->contact.modelled)
         return br_fail(err, BR_BAD_INPUT,
-                       "--fields: found bending alone, but Coulomb's friction bound is c_V (u(L) - "
-                       "g)_+, expected axial,bending");
+                       "--fields: found bending alone, but %s's friction bound is %s, expected "
+                       "axial,bending",
+                       br_friction_models[friction->law].title,
+                       br_friction_models[friction->law].words);
     return BR_OK;
 }
 
@@ -44,16 +49,19 @@ __attribute__((format(printf, 5, 6))) static void add(struct br_run_report *r, c
 static void add_fields(struct br_run_report *r)
 {
     const struct br_scene *s = r->scene, *m = &r->marched;
-    const bool tresca = s->friction.law == BR_TRESCA && m->bending.modelled;
+    const bool alone = m->bending.modelled && br_friction_rubs(&s->friction) &&
+                       !br_friction_follows_contact(&s->friction);
     if (m->axial.modelled)
         add(r, "axial", "axial field", true, "%zu unknowns, P%d elements",
             r->n * (size_t)r->method.axial_degree, r->method.axial_degree);
+    else if (alone && s->axial.modelled)
+        add(r, "axial", "axial field", false,
+            "not asked for: %s's bound does not depend on it, nor does bending; --fields "
+            "axial,bending marches it",
+            br_friction_models[s->friction.law].title);
     else
         add(r, "axial", "axial field", false, "%s",
-            !s->axial.modelled ? "the scene has no axial part"
-            : tresca           ? "not asked for: Tresca's bound does not depend on it, nor does "
-                                 "bending; --fields axial,bending marches it"
-                               : "not asked for by --fields");
+            s->axial.modelled ? "not asked for by --fields" : "the scene has no axial part");
     if (m->bending.modelled)
         add(r, "bending", "bending field", true, "%zu unknowns, cubic Hermite elements", 2 * r->n);
     else
@@ -65,21 +73,22 @@ static void add_laws(struct br_run_report *r)
 {
     const struct br_scene *s = r->scene, *m = &r->marched;
     const char *title = r->method.friction->title;
+    const struct br_friction_model *law = &br_friction_models[m->friction.law];
     add(r, "contact", "contact", m->contact.modelled, "%s%s",
         m->contact.modelled   ? "normal compliance (10), "
         : s->contact.modelled ? "it acts on the axial field, which is not marched"
                               : "the scene has no contact part: no lagged force",
         m->contact.modelled ? r->method.contact->title : "");
-    if (m->friction.law == BR_TRESCA)
-        add(r, "friction", "friction", true, "Tresca, the bound is constant, %g N; %s",
-            m->friction.coefficient, title);
-    else if (m->friction.law == BR_COULOMB)
-        add(r, "friction", "friction", true, "Coulomb, the bound is c_V (u(L) - g)_+; %s", title);
+    if (br_friction_follows_contact(&m->friction))
+        add(r, "friction", "friction", true, "%s, the bound is %s; %s", law->title, law->words,
+            title);
+    else if (br_friction_rubs(&m->friction))
+        add(r, "friction", "friction", true, "%s, the bound is %s, %g N; %s", law->title,
+            law->words, br_friction_bound(m, 0), title);
     else
         add(r, "friction", "friction", false, "%s",
-            s->friction.law == BR_FRICTIONLESS
-                ? "the scene has no friction part: no friction algebra"
-                : "it acts on the bending field, which is not marched");
+            br_friction_rubs(&s->friction) ? "it acts on the bending field, which is not marched"
+                                           : "the scene has no friction part: no friction algebra");
 }
 
 static void add_terms(struct br_run_report *r, const char *key, const char *part,

@@ -11,21 +11,35 @@
 /* Room for the text of an expression, and for the text in m, s and kg. */
 enum { MOST_TEXT = 1024, MOST_APPLIED = MOST_TEXT + 64 };
 
+/* "; did you mean '150 [N/m]'?" of an expression whose unit has no brackets; returns text (out). */
+static const char *suggest_brackets(const struct br_scene_value *v, const char *whole,
+                                    char text[BR_SUGGESTION])
+{
+    struct br_unit wanted, unit;
+    *text = '\0';
+    br_unit_read(v->unit, &wanted);
+    for (const char *at = strchr(whole, ' '); at && !*text; at = strchr(at + 1, ' '))
+        if (br_unit_read(at + 1, &unit) && at[1] && br_dimension_is(unit.of, wanted.of))
+            br_append(text, BR_SUGGESTION, "; did you mean '%.*s [%s]'?", (int)(at - whole), whole,
+                      at + 1);
+    return text;
+}
+
 /* Splits "expression [unit]". text (out): the expression. */
 static enum br_status split_unit(struct br_scene_value *v, char text[MOST_TEXT],
                                  struct br_unit *found)
 {
     const char *whole = br_yaml_text(v->node), *bracket = strrchr(whole, '[');
     size_t length = bracket ? (size_t)(bracket - whole) : 0;
-    char word[64] = "";
+    char word[64] = "", meant[BR_SUGGESTION];
     if (bracket)
         snprintf(word, sizeof word, "%s", bracket + 1);
     char *end = strchr(word, ']');
     if (!end || end == word || end[1])
         return BR_REFUSE_VALUE(v,
                                "found '%s', expected an expression and its unit in brackets, like "
-                               "'x*t [%s]'",
-                               whole, v->unit);
+                               "'x*t [%s]'%s",
+                               whole, v->unit, suggest_brackets(v, whole, meant));
     *end = '\0';
     const enum br_status status = br_scene_read_unit(v, word, found);
     if (status)

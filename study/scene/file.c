@@ -27,8 +27,8 @@ static enum br_status read_key(const struct br_scene_reader *r, const struct br_
     return br_scene_read_value(r, key, value);
 }
 
-/* "; did you mean 'coefficient'?" of a symbol that stands for a key; else "". Returns text (out).
- */
+/* "; did you mean 'coefficient'?" of a symbol that stands for a key; in another section
+ * 'friction.coefficient'; else "". Returns text (out). */
 static const char *key_of_symbol(const char *section, const char *symbol, char text[BR_SUGGESTION])
 {
     static const struct {
@@ -46,6 +46,10 @@ static const char *key_of_symbol(const char *section, const char *symbol, char t
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(known[i].section, section) == 0 && strcmp(known[i].symbol, symbol) == 0)
             br_append(text, BR_SUGGESTION, "; did you mean '%s'?", known[i].key);
+    for (size_t i = 0; i < sizeof known / sizeof *known && !*text; i++)
+        if (strcmp(known[i].symbol, symbol) == 0)
+            br_append(text, BR_SUGGESTION, "; did you mean '%s%s%s'?", known[i].section,
+                      *known[i].section ? "." : "", known[i].key);
     return text;
 }
 
@@ -92,15 +96,15 @@ static enum br_status check_required(const struct br_scene_reader *r, const char
         const bool needed = k->need == BR_REQUIRED || k->need == BR_OR_RATIO;
         if (strcmp(k->section, section) != 0 || br_scene_line(r, k) || !needed)
             continue;
-        if (k->law != BR_FRICTIONLESS && k->law != r->scene->friction.law)
+        if (k->laws && !(k->laws & 1u << r->scene->friction.law))
             continue;
         return br_scene_refuse(r, line, k->name, "missing%s%s, expected %s%s%s",
                                *section ? " in " : "", section, k->help, *k->unit ? ", in " : "",
                                k->unit);
     }
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (br_scene_line(r, k) && strcmp(k->section, section) == 0 && k->law != BR_FRICTIONLESS &&
-            k->law != r->scene->friction.law)
+        if (br_scene_line(r, k) && strcmp(k->section, section) == 0 && k->laws &&
+            !(k->laws & 1u << r->scene->friction.law))
             return br_scene_refuse(r, line, k->name, "does not belong to this friction law: %s",
                                    k->help);
     return BR_OK;

@@ -41,17 +41,27 @@ void br_data_path(const char *relative, char *path, size_t size)
         snprintf(path, size, "%s/%s", folder ? folder : BR_DATA_DIR, relative);
 }
 
-/* Suggests the bundled scene with the most similar name, if there is one. */
+static bool is_file_name(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return strchr(name, '/') || (dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0));
+}
+
+/* Suggests the file, or the bundled scene, with the most similar name, if there is one. */
 static enum br_status refuse(const char *name, const char *path, struct br_error *err)
 {
-    char **names, suggestion[BR_SUGGESTION] = "";
+    char **names, suggestion[BR_SUGGESTION] = "", file[PATH_MAX];
     size_t count;
     const enum br_status listed = br_scene_list(&names, &count, NULL);
-    if (!listed && !*br_suggest_file(name, suggestion))
+    const bool of_file = is_file_name(name);
+    snprintf(file, sizeof file, "%s.yaml", name);
+    if (access(file, F_OK) == 0)
+        br_append(suggestion, sizeof suggestion, "; did you mean '%.80s'?", file);
+    else if (!listed && !*br_suggest_file(name, suggestion))
         br_suggestion(name, (const char *const *)names, count, suggestion);
-    const enum br_status status =
-        br_fail(err, BR_BAD_INPUT, "'%s' is neither a file nor a bundled scene (looked for %s)%s",
-                name, path, suggestion);
+    const enum br_status status = br_fail(
+        err, BR_BAD_INPUT, "'%s' is neither a file nor a bundled scene%s%s%s%s", name,
+        of_file ? "" : " (looked for ", of_file ? "" : path, of_file ? "" : ")", suggestion);
     br_scene_list_free(names, count);
     return status;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The method of manufactured solutions: a scene whose loads, tip forces and initial data are
  * derived from a solution that is given (Roache 2002; Oberkampf and Roy 2010). */
-#include "solver/scene.h"
+#include "solver/laws.h"
 #include "study/known/expression.h"
 
 #include <float.h>
@@ -92,13 +92,29 @@ static unsigned after_t(struct br_tree_builder *b)
                         br_tree_number(b, DBL_TRUE_MIN), 0);
 }
 
+/* The friction's bound by law. */
+static unsigned tresca(struct br_tree_builder *b, const struct br_scene *s, const struct parts *p)
+{
+    (void)p;
+    return br_tree_number(b, s->friction.coefficient);
+}
+
+static unsigned coulomb(struct br_tree_builder *b, const struct br_scene *s, const struct parts *p)
+{
+    return pressed(b, s, &p->u, s->friction.coefficient);
+}
+
+static unsigned (*const bounds[BR_FRICTION_LAWS])(struct br_tree_builder *, const struct br_scene *,
+                                                  const struct parts *) = {
+    [BR_TRESCA] = tresca,
+    [BR_COULOMB] = coulomb,
+};
+
 /* lambda is h sign(w_t), or the stick force where w_t is zero. At the time when the tip begins to
  * slip, the force of the slip that begins: step() is 1 from zero on, too. */
 static unsigned friction(struct br_tree_builder *b, const struct br_scene *s, const struct parts *p)
 {
-    const double c = s->friction.coefficient;
-    const unsigned bound =
-        s->friction.law == BR_COULOMB ? pressed(b, s, &p->u, c) : br_tree_number(b, c);
+    const unsigned bound = bounds[s->friction.law](b, s, p);
     const unsigned velocity = graft(b, &p->velocity, after_t(b));
     const unsigned slip =
         br_tree_node(b, BR_OP_MULTIPLY, br_tree_node(b, BR_OP_SIGN, velocity, 0, 0), bound, 0);
@@ -131,11 +147,15 @@ static enum br_status make_tip_force(const struct br_scene *s, enum br_field_kin
                                v = one_term(0, 1, s->length, NAN),
                                stress = stress_at_tip(s, sign * d->stiffness, sign * d->viscosity,
                                                       axial ? 1 : 3);
-    if (!(axial ? s->contact.modelled : s->friction.law != BR_FRICTIONLESS))
+    if (!(axial ? s->contact.modelled : br_friction_rubs(&s->friction)))
         return br_function_derive(&d->given, &stress, f, err);
     struct parts p = {.u = {0}};
     enum br_status status = br_function_derive(&d->given, &stress, &p.stress, err);
-    if (!status && (axial || s->friction.law == BR_COULOMB))
+    if (!status && !axial && !bounds[s->friction.law])
+        status =
+            br_fail(err, BR_BAD_INPUT, "found it beside %s's law of friction, expected another",
+                    br_friction_models[s->friction.law].title);
+    if (!status && (axial || br_friction_follows_contact(&s->friction)))
         status = br_function_derive(&s->axial.given, &u, &p.u, err);
     if (!status && !axial)
         status = br_function_derive(&d->given, &v, &p.velocity, err);

@@ -5,15 +5,12 @@
 #include <string.h>
 
 #include "base/words.h"
+#include "solver/laws.h"
 #include "study/scene/units.h"
 #include "study/scene/value.h"
 
 #define AT(member) offsetof(struct br_scene, member)
-
-const char *const br_friction_law_names[BR_FRICTION_LAWS] = {
-    [BR_TRESCA] = "tresca",
-    [BR_COULOMB] = "coulomb",
-};
+#define OF(law) (1u << (law))
 
 const struct br_scene_key br_scene_keys[] = {
     {"", "title", BR_KEY_TEXT, BR_REQUIRED, 0, "", AT(title), "one line for a person", "My scene"},
@@ -94,9 +91,9 @@ const struct br_scene_key br_scene_keys[] = {
      "c_H", "1000 N/m"},
 
     {"friction", "law", BR_KEY_LAW, BR_REQUIRED, 0, "", 0, "tresca or coulomb", "coulomb"},
-    {"friction", "bound", BR_KEY_NOT_NEGATIVE, BR_REQUIRED, BR_TRESCA, "N",
+    {"friction", "bound", BR_KEY_NOT_NEGATIVE, BR_REQUIRED, OF(BR_TRESCA), "N",
      AT(friction.coefficient), "c_V of Tresca's law", "100 N"},
-    {"friction", "coefficient", BR_KEY_NOT_NEGATIVE, BR_OR_RATIO, BR_COULOMB, "N/m",
+    {"friction", "coefficient", BR_KEY_NOT_NEGATIVE, BR_OR_RATIO, OF(BR_COULOMB), "N/m",
      AT(friction.coefficient), "c_V of Coulomb's law, or without unit c_V/c_H", "1e4 N/m"},
     {"friction", "regularisation", BR_KEY_NOT_NEGATIVE, BR_OPTIONAL, 0, "m/s",
      AT(friction.regularisation), "mu of (29)", "1e-8 m/s"},
@@ -160,14 +157,13 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
     struct br_unit unit;
     const double value = strtod(text, &behind);
     const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
-    const size_t blanks = strspn(behind, " ");
-    if (behind == text || (*behind && *behind != ' ') || !isfinite(value) || length >= MOST_UNIT)
+    if (behind == text || (*behind && strchr(".,", *behind)) || !isfinite(value) ||
+        length >= MOST_UNIT)
         return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
                                br_yaml_text(v->node), v->unit,
                                *behind == ',' ? ", with a point before decimals" : "");
     snprintf(word, sizeof word, "%.*s", (int)length, behind);
-    const enum br_status status =
-        br_scene_read_unit(v, word + (blanks < length ? blanks : length), &unit);
+    const enum br_status status = br_scene_read_unit(v, word + strspn(word, " "), &unit);
     if (status)
         return status;
     if (br_unit_convert(&unit, text, (size_t)(behind - text), q) && isfinite(q->value))
@@ -211,14 +207,16 @@ static enum br_status read_law(const struct br_scene_value *v)
 {
     const char *text = br_yaml_text(v->node);
     char expected[BR_EXPECTED];
-    for (int law = 0; law < BR_FRICTION_LAWS; law++)
-        if (br_friction_law_names[law] && strcmp(text, br_friction_law_names[law]) == 0) {
-            v->r->scene->friction.law = (enum br_friction_law)law;
+    const char *name[BR_FRICTION_LAWS];
+    for (enum br_friction_law law = 1; law < BR_FRICTION_LAWS; law++) {
+        name[law - 1] = br_friction_models[law].name;
+        if (strcmp(text, name[law - 1]) == 0) {
+            v->r->scene->friction.law = law;
             return BR_OK;
         }
-    return BR_REFUSE_VALUE(
-        v, "found '%s', %s", text,
-        br_expected(text, br_friction_law_names + 1, BR_FRICTION_LAWS - 1, expected));
+    }
+    return BR_REFUSE_VALUE(v, "found '%s', %s", text,
+                           br_expected(text, name, BR_FRICTION_LAWS - 1, expected));
 }
 
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,

@@ -15,7 +15,7 @@ enum br_key_kind {
     BR_KEY_INITIAL,      /* "expression in x [unit]" */
     BR_KEY_HISTORY,      /* "expression in t [unit]" */
     BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
-    BR_KEY_LAW,          /* tresca or coulomb */
+    BR_KEY_LAW,          /* a name of br_friction_models */
     BR_KEY_SHAPE,        /* "rectangle 20 mm x 5 mm": a cross-section */
     BR_KEY_VERIFY,       /* whoever asks for it reads it: br_scene_asked */
 };
@@ -34,11 +34,11 @@ struct br_scene_key {
     const char *name;
     enum br_key_kind kind;
     enum br_need need;
-    enum br_friction_law law; /* the law that has this key; BR_FRICTIONLESS: any */
-    const char *unit;         /* one unit of its dimension; "": none */
-    size_t offset;            /* in struct br_scene; of a section: of its flag `modelled` */
-    const char *help;         /* what is expected */
-    const char *example;      /* a value for templates; the required keys together make a scene */
+    unsigned laws;       /* of friction that have this key, a bit each: 1u << BR_COULOMB; 0: any */
+    const char *unit;    /* one unit of its dimension; "": none */
+    size_t offset;       /* in struct br_scene; of a section: of its flag `modelled` */
+    const char *help;    /* what is expected */
+    const char *example; /* a value for templates; the required keys together make a scene */
 };
 
 enum { BR_MOST_SCENE_KEYS = 64 };
@@ -53,10 +53,6 @@ struct br_scene_given {
         long double value, second; /* in m, s and kg; of a section: area and inertia */
     } row[BR_MOST_SCENE_KEYS];
 };
-
-/* The names of the friction laws, by enum br_friction_law; NULL: a law without a name. */
-enum { BR_FRICTION_LAWS = 3 };
-extern const char *const br_friction_law_names[BR_FRICTION_LAWS];
 
 /* Ends with a row whose name is NULL. */
 extern const struct br_scene_key br_scene_keys[];

@@ -1,63 +1,57 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The seconds that trials will take: the costs of the registry (solver/method.h), times the pace of
- * this machine, which a few steps show; and the costs of references (study/grid/batches.h). */
+/* The seconds that trials will take, by the costs of their marches and of references
+ * (study/grid/costs.h). */
 #include <math.h>
 
-#include "base/clock.h"
 #include "base/each.h"
-#include "solver/scene.h"
-#include "study/estimate/warnings.h"
-#include "study/grid/batches.h"
+#include "study/grid/costs.h"
 #include "study/trade/trial.h"
 
 /* ---- a method ---- */
 
-/* An adaptive scheme is taken to need so many steps at a tolerance of 1e-4. They grow as the
- * inverse of the tolerance to 1/4 (order 4). */
-static const double usual_steps = 30;
+static struct br_planned_march planned(const struct br_scene *scene, const struct br_trial *t,
+                                       const struct br_method *method)
+{
+    return (struct br_planned_march){
+        .scene = scene, .method = method, .n = t->at.n, .steps = t->at.steps};
+}
 
 double br_trial_work(const struct br_scene *scene, const struct br_trial *t)
 {
-    const struct br_method *m = &t->named->method;
-    const double steps =
-        m->scheme->adaptive ? usual_steps * pow(1e4 * t->tolerance, -0.25) : (double)t->at.steps;
-    return 1e-9 * steps * br_method_cost(m, scene, t->at.n);
+    const struct br_method method = br_trial_method(t);
+    const struct br_planned_march march = planned(scene, t, &method);
+    return br_march_seconds(&march);
 }
 
-/* Measured seconds over br_trial_work: once for all equal steps, and for each adaptive method and
- * tolerance, since the costs do not know how many steps these make. By at most `longest` seconds of
- * steps on a coarse mesh. A march that fails costs nothing more; only BR_NO_MEMORY and
- * BR_INTERRUPTED fail the call. */
-static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
-                                size_t i, double *pace, struct br_error *err)
+/* All equal steps have one pace. The costs do not know how many steps an adaptive method makes at a
+ * tolerance. */
+static bool share_pace(const struct br_trial *a, const struct br_trial *b)
 {
-    enum { MESH = 100, STEPS = 100 };
-    static const double longest = 0.02;
-    struct br_trial_request little = *r;
-    struct br_trial probe = trial[i];
-    struct br_trial_cost cost;
+    return a->tolerance == b->tolerance && (a->tolerance == 0 || a->named == b->named);
+}
+
+/* The pace of trial i: that of the dearest one of those that share it. */
+static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
+                                size_t count, size_t i, double *pace, struct br_error *err)
+{
+    size_t dearest = i;
     pace[i] = r->pace;
     if (r->pace > 0)
         return BR_OK;
-    for (size_t j = 0; j < i; j++)
-        if (trial[j].tolerance == trial[i].tolerance &&
-            (trial[i].tolerance == 0 || trial[j].named == trial[i].named)) {
+    for (size_t j = 0; j < count; j++) {
+        if (!share_pace(&trial[j], &trial[i]))
+            continue;
+        if (j < i) {
             pace[i] = pace[j];
             return BR_OK;
         }
-    little.time_limit = longest;
-    probe.at.n = MESH;
-    probe.at.steps = probe.named->method.scheme->adaptive ? probe.at.steps : STEPS;
-    const enum br_status status = br_trial_march(&probe, &little, &cost, err);
-    if (status == BR_INTERRUPTED)
-        return status;
-    if (status == BR_NO_MEMORY)
-        return br_fail(err, status, "%s", probe.failure.message);
-    /* an unfinished first level counts as half of one */
-    const double done = fmax(0.5, (double)cost.levels) / (double)probe.at.steps;
-    pace[i] =
-        status && status != BR_VERDICT ? 0 : cost.march / done / br_trial_work(r->scene, &probe);
-    return BR_OK;
+        if (br_trial_work(r->scene, &trial[j]) > br_trial_work(r->scene, &trial[dearest]))
+            dearest = j;
+    }
+    const struct br_method method = br_trial_method(&trial[dearest]);
+    const struct br_planned_march march = planned(r->scene, &trial[dearest], &method);
+    return br_observer_stops(r->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                          : br_march_pace(&march, &pace[i], err);
 }
 
 /* ---- the reference ---- */
@@ -111,9 +105,9 @@ static double reference_seconds(const struct br_trial_request *r, const struct b
             mesh = false;
             levels = levels && trial[j].at.steps != at->steps;
         }
-    const double whole = s.reference_kind->create ? 1e-9 * br_reference_cost(&s) : 0;
+    const double whole = s.reference_kind->create ? br_reference_seconds(&s) : 0;
     s.steps = &none;
-    const double set_up = s.reference_kind->create ? 1e-9 * br_reference_cost(&s) : 0;
+    const double set_up = s.reference_kind->create ? br_reference_seconds(&s) : 0;
     return levels * (whole - set_up) + (mesh && s.reference_kind->nests) * set_up;
 }
 
@@ -125,7 +119,7 @@ static double marches(const struct br_trial_request *r, const struct br_trial *t
 {
     const struct br_method *m = &t->named->method;
     const double march = pace * br_trial_work(r->scene, t), soon = r->repeat_seconds;
-    const double measured = march + 1e-9 * br_measure_cost(r->scene, t->at.n) * (double)t->at.steps;
+    const double measured = march + br_measure_seconds(r->scene, t->at.n, t->at.steps);
     const bool whole = m->scheme->adaptive || m->friction->iterates;
     if (r->time_limit > 0 && march > r->time_limit)
         return whole ? r->time_limit : soon;
@@ -207,7 +201,7 @@ enum br_status br_trials_estimate(struct br_trial *trial, size_t count,
     enum br_status status = pace && f.march ? BR_OK : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
         trial[i].end = BR_TRIAL_DONE;
-        status = find_pace(r, trial, i, pace, err);
+        status = find_pace(r, trial, count, i, pace, err);
         f.march[i] = marches(r, &trial[i], pace[i]);
     }
     for (size_t i = 0; i < count && !status; i++)

@@ -2,6 +2,7 @@
 #include "study/trade/trade.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -36,21 +37,6 @@ static bool is_cheaper(const struct br_trial *a, const struct br_trial *b)
 {
     const double x = br_trial_seconds(a), y = br_trial_seconds(b);
     return x < y || (!(x > y) && a->cost.counts.stages < b->cost.counts.stages);
-}
-
-size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
-                          const struct br_named_method *only)
-{
-    size_t best = count;
-    for (size_t i = 0; i < count; i++) {
-        if (only && trial[i].named != only)
-            continue;
-        if (!(br_trial_bound(&trial[i]) <= target) || !isfinite(br_trial_seconds(&trial[i])))
-            continue;
-        if (best == count || is_cheaper(&trial[i], &trial[best]))
-            best = i;
-    }
-    return best;
 }
 
 /* Errors that differ by less count as equal: those of two linear solvers differ in the last bits.
@@ -93,23 +79,16 @@ size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
     return best;
 }
 
-/* Whether b is better than a; of equals the earlier is better. */
-static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
+void br_trials_points(const struct br_trial *trial, size_t count,
+                      const struct br_named_method *list, struct br_work_point *point)
 {
-    const double error = br_trial_bound(a), other_error = br_trial_bound(b);
-    const double seconds = br_trial_seconds(a), other_seconds = br_trial_seconds(b);
-    if (other_seconds < seconds)
-        return other_error <= (1 + tie) * error;
-    return other_seconds <= seconds && (other_error < error || (other_error <= error && b < a));
-}
-
-void br_trials_front(const struct br_trial *trial, size_t count, bool *front)
-{
-    for (size_t i = 0; i < count; i++) {
-        front[i] = isfinite(br_trial_bound(&trial[i])) && isfinite(br_trial_seconds(&trial[i]));
-        for (size_t j = 0; j < count && front[i]; j++)
-            front[i] = j == i || !is_beaten(&trial[i], &trial[j]);
-    }
+    for (size_t i = 0; i < count; i++)
+        point[i] = (struct br_work_point){
+            .program = (size_t)(trial[i].named - list),
+            .error = br_trial_bound(&trial[i]),
+            .cost = br_trial_seconds(&trial[i]),
+            .effort = (double)trial[i].cost.counts.stages,
+        };
 }
 
 static void choose(struct br_trade *t)
@@ -117,12 +96,13 @@ static void choose(struct br_trade *t)
     t->chosen =
         br_trade_has_goal(t) ? br_trials_for_goal(t->trial, t->count, &t->goal, NULL) : t->count;
     t->forecast.left = br_trade_tally(t, BR_TRIAL_LEFT); /* a goal that is reached may need fewer */
-    br_trials_front(t->trial, t->count, t->front);
+    br_trials_points(t->trial, t->count, t->methods.list, t->point);
+    br_work_front(t->point, t->count);
     for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
         const double target = br_trade_target(d);
-        t->best[d] = br_trials_cheapest(t->trial, t->count, target, NULL);
+        t->best[d] = br_work_cheapest(t->point, t->count, target, SIZE_MAX, SIZE_MAX);
         for (size_t c = 0; c < t->methods.count; c++)
-            t->best_of[c][d] = br_trials_cheapest(t->trial, t->count, target, &t->methods.list[c]);
+            t->best_of[c][d] = br_work_cheapest(t->point, t->count, target, c, SIZE_MAX);
     }
 }
 
@@ -286,9 +266,9 @@ void br_trade_clear(struct br_trade *t)
 {
     br_trials_release_reference(&t->request, t->reference);
     free(t->trial);
-    free(t->front);
+    free(t->point);
     t->trial = NULL;
-    t->front = NULL;
+    t->point = NULL;
     t->reference = NULL;
     t->count = 0;
 }
@@ -394,8 +374,8 @@ enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *
     t->finer_n = !given->n_count;
     t->finer_steps = !given->step_count && !given->tolerances;
     t->trial = br_allocate(most, sizeof *t->trial);
-    t->front = br_allocate(most, sizeof *t->front);
-    if (!t->trial || !t->front)
+    t->point = br_allocate(most, sizeof *t->point);
+    if (!t->trial || !t->point)
         return br_no_memory(err, "the trials");
     for (size_t i = 0; i < t->methods.count; i++)
         add_named(t, &g, &t->methods.list[i]);

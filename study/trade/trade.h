@@ -8,6 +8,7 @@
 #ifndef BR_STUDY_TRADE_TRADE_H
 #define BR_STUDY_TRADE_TRADE_H
 
+#include "orders/work.h"
 #include "reference/printed.h"
 #include "study/trade/trial.h"
 
@@ -37,7 +38,7 @@ struct br_trade {
     size_t chosen;             /* the trial for the goal; `count`: none reaches it */
     struct br_trial *trial;    /* count, those of a named method together; owned */
     size_t count;
-    bool *front;                  /* count: on the Pareto front of all; owned */
+    struct br_work_point *point;  /* count: of the trials, with their fronts; owned */
     size_t best[BR_TRADE_DIGITS]; /* the cheapest trial to each target; `count`: none */
     /* Likewise of each named method. */
     size_t best_of[BR_MOST_NAMED_METHODS][BR_TRADE_DIGITS];
@@ -77,20 +78,14 @@ size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
 
 /* ---- choosing ---- */
 
-/* The trial with the least seconds among those whose error is at most the target, of one named
- * method or of all (NULL); of equals the one with fewer solves, then the first. `count`: there is
- * none. */
-size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
-                          const struct br_named_method *only);
-
 /* The trial for a goal, of one named method or of all (NULL); `count`: none reaches it. Of trials
  * whose seconds differ by no more than the clock scatters, the one with the smallest error. */
 size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
                           const struct br_trade_goal *goal, const struct br_named_method *only);
 
-/* Marks (out, count) the trials of the Pareto front: no other trial is better in error or seconds
- * and at least as good in the other; of equals the first is marked. The error of a slower trial
- * must be smaller by more than a millionth. */
-void br_trials_front(const struct br_trial *trial, size_t count, bool *front);
+/* Their points (out, count): bounds of the errors over seconds; program: the place of the named
+ * method in its list. */
+void br_trials_points(const struct br_trial *trial, size_t count,
+                      const struct br_named_method *list, struct br_work_point *point);
 
 #endif

@@ -194,15 +194,17 @@ static void put_extreme(struct br_document *d, const struct br_run_findings *f, 
     br_put_fact_as(d, br_if(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
 }
 
-/* Coulomb's bound is as wrong as the penetration; the bound of Tresca's law is given. */
+/* A bound that follows the contact is as wrong as the penetration; another one is given. */
 static void put_friction(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
     const struct br_friction *law = &r->marched.friction;
     const struct br_tip_watch *w = &r->watch;
     const double force = r->end.last.friction_force, bound = r->end.last.friction_bound;
-    const bool friction = has_friction(r), coulomb = law->law == BR_COULOMB && bound > 0;
-    const double error = coulomb ? law->coefficient * tip_error(f, BR_AXIAL) : NAN;
+    const bool friction = has_friction(r), follows = br_friction_follows_contact(law) && bound > 0;
+    const double depth = br_penetration(&r->marched.contact, r->end.last.displacement[BR_AXIAL]);
+    const double error =
+        follows ? br_friction_models[law->law].slope(law, depth) * tip_error(f, BR_AXIAL) : NAN;
     put_number(d, f, friction ? force : NAN, fabs(force) == bound ? error : NAN, "friction force",
                "N", "tip.friction_force");
     put_number(d, f, friction ? bound : NAN, error, "  its bound", "N", "tip.friction_bound");

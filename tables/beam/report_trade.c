@@ -37,26 +37,12 @@ static void answer_cheapest(struct br_document *d, const struct br_trade *t)
     }
 }
 
-/* The next trial on the Pareto front, by seconds, after `last`; count: the first, and the end. */
-static size_t next_on_front(const struct br_trade *t, size_t last)
-{
-    const double after = last < t->count ? br_trial_seconds(&t->trial[last]) : -INFINITY;
-    size_t next = t->count;
-    for (size_t i = 0; i < t->count; i++) {
-        const double seconds = br_trial_seconds(&t->trial[i]);
-        if (t->front[i] && seconds > after &&
-            (next == t->count || seconds < br_trial_seconds(&t->trial[next])))
-            next = i;
-    }
-    return next;
-}
-
 static void answer_front(struct br_document *d, const struct br_trade *t)
 {
     char text[TEXT];
-    const size_t fastest = next_on_front(t, t->count);
+    const size_t fastest = br_work_next(t->point, t->count, t->count);
     size_t best = fastest;
-    for (size_t i = best; i < t->count; i = next_on_front(t, i))
+    for (size_t i = best; i < t->count; i = br_work_next(t->point, t->count, i))
         best = i;
     if (best < t->count)
         br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
@@ -117,7 +103,7 @@ static void put_outcome(struct br_document *d, const struct br_trade *t, size_t 
     BR_PUT(d, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
            .heading = "digits/s", .format = "%.3g", .flags = BR_FILES_ONLY);
     br_hide(d, "end", NULL, br_text(br_trial_end_names[trial->end]));
-    br_hide(d, "front", NULL, br_truth(t->front[i]));
+    br_hide(d, "front", NULL, br_truth(t->point[i].front));
     br_hide(d, "printed", NULL, br_truth(trial->printed));
     br_hide(d, "failure", NULL, br_failure_text(&trial->failure));
 }
@@ -148,8 +134,8 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
                      BR_FOR_PEOPLE);
     else
         br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
-    for (size_t i = front ? next_on_front(t, t->count) : 0; i < t->count;
-         i = front ? next_on_front(t, i) : i + 1) {
+    for (size_t i = front ? br_work_next(t->point, t->count, t->count) : 0; i < t->count;
+         i = front ? br_work_next(t->point, t->count, i) : i + 1) {
         br_put_row(d);
         put_outcome(d, t, i);
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
+#include "solver/laws.h"
 #include "study/scene/schema.h"
 #include "study/verify/verify.h"
 #include "tables/beam/scene_format.h"
@@ -18,8 +19,12 @@ static void write_default(FILE *out, const struct br_scene_key *key)
 {
     const bool expression =
         key->kind == BR_KEY_LOAD || key->kind == BR_KEY_INITIAL || key->kind == BR_KEY_HISTORY;
-    if (key->law)
-        fprintf(out, ", with law: %s", br_friction_law_names[key->law]);
+    const char *with = ", with law: ";
+    for (enum br_friction_law law = 0; law < BR_FRICTION_LAWS; law++)
+        if (key->laws & 1u << law) {
+            fprintf(out, "%s%s", with, br_friction_models[law].name);
+            with = " or ";
+        }
     if (must_be_given(key))
         return;
     if (key->kind == BR_KEY_SECTION)
@@ -35,7 +40,7 @@ static void write_default(FILE *out, const struct br_scene_key *key)
 /* "  name: value  # help", as a comment where it is optional. */
 static void write_key(FILE *out, const struct br_scene_key *key)
 {
-    const bool other_law = key->law && key->law != BR_COULOMB; /* that of the example */
+    const bool other_law = key->laws && !(key->laws & 1u << BR_COULOMB); /* that of the example */
     const bool live = (must_be_given(key) && !other_law) || key->kind == BR_KEY_SECTION ||
                       key->kind == BR_KEY_LOAD;
     const char *constraint = key->kind == BR_KEY_POSITIVE       ? ", > 0"

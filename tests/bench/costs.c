@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 #include "solver/scene.h"
-#include "study/estimate/cost_estimate.h"
+#include "study/grid/costs.h"
 #include "study/grid/sweep.h"
 #include "study/trade/trade.h"
 #include "tests/support.h"
@@ -64,32 +64,32 @@ static double run(const struct row *r, const struct br_scene *scene, const struc
 {
     const struct br_planned_march planned = {
         .scene = scene, .method = m, .n = r->n[0], .steps = r->steps[0]};
-    struct br_cost_estimate work = {.alone = true};
-    br_cost_estimate_add_march(&work, &planned);
-    br_cost_estimate_measure(&work);
+    struct br_costs work = {.alone = true};
+    br_costs_add_march(&work, &planned);
+    br_costs_measure(&work);
     const double begun = br_thread_seconds();
     struct br_march *march = br_test_march(scene, r->n[0], r->steps[0], m);
     br_test_advance(march, r->steps[0]);
     *took = br_thread_seconds() - begun;
     br_march_free(march);
-    return br_cost_estimate_seconds(&work, 1);
+    return br_costs_seconds(&work, 1);
 }
 
 static double study(const struct row *r, const struct br_scene *scene, const struct br_method *m,
                     double *took)
 {
     struct br_error err = {0};
-    struct br_cost_estimate work = {0};
+    struct br_costs work = {0};
     struct br_study s = br_test_study(scene, br_reference_best(scene), count_of(r->n), r->n,
                                       count_of(r->steps), r->steps);
     s.method = *m;
-    br_cost_estimate_add_study(&work, &s);
-    br_cost_estimate_measure(&work);
+    br_costs_add_study(&work, &s);
+    br_costs_measure(&work);
     const double begun = br_thread_seconds();
     MUST(br_study_run(&s, 1, 1, NULL, &err));
     *took = br_thread_seconds() - begun;
     br_study_clear(&s);
-    return br_cost_estimate_seconds(&work, 1);
+    return br_costs_seconds(&work, 1);
 }
 
 static double trade(const struct row *r, const struct br_scene *scene, double *took)

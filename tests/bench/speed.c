@@ -100,7 +100,7 @@ static void run_series(const struct series *s)
 static void run_solver(struct series *s)
 {
     s->kernel = "-";
-    if (!s->method.solver->cost || !s->method.solver->takes_kernel) {
+    if (br_linear_solver_chooses(s->method.solver) || !s->method.solver->takes_kernel) {
         run_series(s);
         return;
     }

@@ -33,7 +33,7 @@ struct br_method bench_fast_method(void)
 {
     struct br_method method = br_method_default();
     const struct br_linear_solver *const *s = br_linear_solvers;
-    while (*s && !((*s)->cost && (*s)->takes_kernel))
+    while (*s && (br_linear_solver_chooses(*s) || !(*s)->takes_kernel))
         s++;
     assert_non_null(*s);
     method.solver = *s;

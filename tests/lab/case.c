@@ -453,7 +453,7 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
         return;
     const bool tresca = c->law == BR_TRESCA;
     br_append(text, BR_EXTREME_TEXT, "\nfriction:\n  law: %s\n  %s: %.17g %s\n",
-              br_friction_law_names[c->law], tresca ? "bound" : "coefficient", c->friction,
+              br_friction_models[c->law].name, tresca ? "bound" : "coefficient", c->friction,
               tresca ? "N" : "N/m");
     if (c->regularisation > 0)
         br_append(text, BR_EXTREME_TEXT, "  regularisation: %.17g m/s\n", c->regularisation);
@@ -469,7 +469,7 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
     const struct br_scene scene = {.axial.modelled = axial, /* else `run` leaves it out */
                                    .contact.modelled = c->contact,
                                    .friction.law = c->law};
-    snprintf(text, BR_EXTREME_COMMAND, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n,
+    snprintf(text, BR_EXTREME_COMMAND, "beamrate run %s --check --n %zu --k T/%zu%s", name, c->n,
              c->steps, br_method_options(&scene, &c->method, options));
     if (c->wanted)
         br_append(text, BR_EXTREME_COMMAND, " --fields axial,bending");

@@ -73,12 +73,10 @@ static double price(const struct cost *of, const struct br_cut *cut)
 }
 
 /* See linear_solver.h. */
-static double panels_cost(const struct br_linear_solver *row, const struct br_field *field,
-                          double sums)
+static double panels_cost(const struct br_field *field, double sums)
 {
-    (void)row;
     if (br_field_is_quadratic(field))
-        return br_plain.cost(&br_plain, field, sums);
+        return br_linear_solver_cost(&br_plain, field, sums);
     static const struct cost axial = {260, 6.5, 55, 2.75}, axial_sum = {70, 1.6, 8, 3.1};
     static const struct cost bending = {450, 22, 115, 10.9}, bending_sum = {55, 7, 14, 6.5};
     static const double march = 140; /* of a step that has an odd rest alone */

@@ -1,0 +1,559 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "orders/work.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "orders/line/line_order.h"
+#include "orders/reading/roles.h"
+
+/* ---- fronts ---- */
+
+/* Errors that differ by less count as equal: those of two linear solvers differ in the last bits.
+ */
+static const double tie = 1e-6;
+
+static bool counts(const struct br_work_point *p)
+{
+    return isfinite(p->error) && isfinite(p->cost);
+}
+
+static bool is_cheaper(const struct br_work_point *a, const struct br_work_point *b)
+{
+    return a->cost < b->cost || (!(a->cost > b->cost) && a->effort < b->effort);
+}
+
+size_t br_work_cheapest(const struct br_work_point *p, size_t count, double target, size_t program,
+                        size_t other)
+{
+    size_t best = count;
+    for (size_t i = 0; i < count; i++)
+        if ((program == SIZE_MAX || p[i].program == program) && p[i].program != other &&
+            p[i].error <= target && counts(&p[i]) && (best == count || is_cheaper(&p[i], &p[best])))
+            best = i;
+    return best;
+}
+
+/* Whether b is better than a; of equals the earlier is better. */
+static bool is_beaten(const struct br_work_point *a, const struct br_work_point *b)
+{
+    if (b->cost < a->cost)
+        return b->error <= (1 + tie) * a->error;
+    return b->cost <= a->cost && (b->error < a->error || (b->error <= a->error && b < a));
+}
+
+void br_work_front(struct br_work_point *p, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        p[i].front = p[i].own = counts(&p[i]);
+        for (size_t j = 0; j < count && p[i].own; j++)
+            if (j != i && is_beaten(&p[i], &p[j])) {
+                p[i].front = false;
+                p[i].own = p[j].program != p[i].program;
+            }
+    }
+}
+
+size_t br_work_next(const struct br_work_point *p, size_t count, size_t last)
+{
+    const double after = last < count ? p[last].cost : -INFINITY;
+    size_t next = count;
+    for (size_t i = 0; i < count; i++)
+        if (p[i].front && p[i].cost > after && (next == count || p[i].cost < p[next].cost))
+            next = i;
+    return next;
+}
+
+bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b)
+{
+    return fabs(a->cost - b->cost) <= hypot(a->half, b->half);
+}
+
+/* ---- what a program has ---- */
+
+static void name_source(const char *path, char *name, size_t size)
+{
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
+    const char *slash = strrchr(path, '/'), *from = slash && slash[1] ? slash + 1 : path;
+    const char *dot = strrchr(from, '.');
+    const bool cut = dot > from && dot[1] && strspn(dot + 1, letters) == strlen(dot + 1);
+    snprintf(name, size, "%.*s", cut ? (int)(dot - from) : (int)strlen(from), from);
+}
+
+void br_work_name_sources(struct br_work_source *s, size_t count)
+{
+    char other[sizeof s->name];
+    for (size_t i = 0; i < count; i++) {
+        name_source(s[i].path, s[i].name, sizeof s[i].name);
+        bool twice = false;
+        for (size_t k = 0; k < count && !twice; k++) {
+            name_source(s[k].path, other, sizeof other);
+            twice = k != i && strcmp(other, s[i].name) == 0;
+        }
+        if (twice)
+            snprintf(s[i].name, sizeof s[i].name, "%.299s", s[i].path);
+    }
+}
+
+/* A program: the columns of its error and of its cost. */
+struct member {
+    const struct br_work_source *source;
+    const char *of;            /* " [method = P1]" */
+    size_t error, cost, costs; /* costs: how many columns may be the cost */
+    enum br_cost kind;
+    double factor;
+    const char *unit;
+};
+
+struct members {
+    struct member *list; /* owned */
+    size_t count;
+    const char *cost; /* of --cost */
+};
+
+enum { NAME = 200 };
+
+static const char *case_of(const struct br_quantity *q)
+{
+    return q->case_at ? q->name + q->case_at : "";
+}
+
+/* Whether column i is of this program; its name without the case (out). */
+static bool has(const struct member *m, size_t i, char name[NAME])
+{
+    const struct br_quantity *q = &m->source->numbers->quantity[i];
+    const size_t length = q->case_at ? q->case_at : strlen(q->name);
+    snprintf(name, NAME, "%.*s", (int)(length < NAME ? length : NAME - 1), q->name);
+    return strcmp(case_of(q), m->of) == 0;
+}
+
+/* The error of that name; SIZE_MAX: there is none. */
+static size_t find_error(const struct member *m, const char *name, const char *cost)
+{
+    const struct br_numbers *n = m->source->numbers;
+    char text[NAME];
+    for (size_t i = 0; i < n->quantities; i++)
+        if (has(m, i, text) && !n->quantity[i].is_value && strcasecmp(text, name) == 0 &&
+            br_kind_of(text) != BR_KIND_COST && strcmp(text, cost) != 0)
+            return i;
+    return SIZE_MAX;
+}
+
+/* Takes the column of that name, or, where it is NULL, those of that kind. */
+static void find_cost(struct member *m, const char *name, enum br_cost kind)
+{
+    static const char *const units[BR_COSTS + 1] = {"s", "s", "s", "", "", "MB", NULL};
+    const struct br_numbers *n = m->source->numbers;
+    char text[NAME];
+    for (size_t i = 0; i < n->quantities + n->costs && !(name && m->costs); i++) {
+        const char *unit = n->quantity[i].unit;
+        double factor;
+        const enum br_cost is = has(m, i, text) ? br_cost_of(text, unit, &factor) : BR_COSTS;
+        if (*text && strcmp(case_of(&n->quantity[i]), m->of) == 0 &&
+            (name ? strcmp(text, name) == 0 : is == kind && is != BR_COSTS)) {
+            m->costs++;
+            m->cost = i;
+            m->kind = is;
+            m->factor = is == BR_COST_MEMORY ? 1e-6 * factor : factor;
+            m->unit = units[is] ? units[is] : unit ? unit : "";
+        }
+    }
+}
+
+/* The column of a name; else those of a kind, before which a time goes that does not say which. */
+static bool have_cost(struct members *all, const char *name, enum br_cost kind)
+{
+    bool have = true;
+    for (struct member *m = all->list; m < all->list + all->count; m++) {
+        m->costs = 0;
+        if (name)
+            find_cost(m, name, BR_COSTS);
+        if (!m->costs)
+            find_cost(m, NULL, kind == BR_COST_TIME ? BR_COST_CPU : kind);
+        if (!m->costs && kind <= BR_COST_TIME)
+            find_cost(m, NULL, BR_COST_TIME);
+        have &= m->costs > 0;
+    }
+    return have;
+}
+
+static enum br_status choose_cost(struct members *all, struct br_error *err)
+{
+    static const enum br_cost usual[] = {BR_COST_CPU, BR_COST_WALL, BR_COST_DOFS,
+                                         BR_COST_ITERATIONS, BR_COST_MEMORY};
+    const bool named = *all->cost;
+    double factor;
+    bool found = named && have_cost(all, all->cost, br_cost_of(all->cost, NULL, &factor));
+    for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
+        found = have_cost(all, NULL, usual[i]);
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        const struct br_numbers *n = m->source->numbers;
+        if (named ? !m->costs : !n->costs)
+            return br_fail(err, BR_BAD_INPUT,
+                           named ? "%s%s: --cost: found no cost '%s'"
+                                 : "%s%s: found no column of a cost%s, expected one like seconds, "
+                                   "cpu, wall, dofs, iterations or memory; --cost NAME names "
+                                   "another one",
+                           m->source->path, m->of, all->cost);
+        if (found && m->costs > 1)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: several columns may be the cost, one of them is %s: --cost NAME "
+                           "chooses one",
+                           m->source->path, n->quantity[m->cost].name);
+        if (found && strcmp(m->unit, all->list->unit) != 0)
+            return br_fail(err, BR_BAD_INPUT, "%s: %s has the unit '%s', that of %s has '%s'",
+                           m->source->path, all->cost, m->unit, all->list->source->path,
+                           all->list->unit);
+    }
+    return found ? BR_OK
+                 : br_fail(err, BR_BAD_INPUT,
+                           "found no cost that all programs have: --cost NAME names one");
+}
+
+/* ---- what all have ---- */
+
+static void say_name(const struct member *m, char *text, size_t size)
+{
+    br_append(text, size, "%s%s", m->source->name, m->of);
+}
+
+static enum br_status list_members(const struct br_work_source *source, size_t sources,
+                                   struct members *all, struct br_error *err)
+{
+    size_t most = 0;
+    for (size_t s = 0; s < sources; s++)
+        most += source[s].numbers->quantities;
+    if (!(all->list = br_allocate(most + 1, sizeof *all->list)))
+        return br_no_memory(err, "the programs");
+    for (size_t s = 0; s < sources; s++)
+        for (size_t i = 0; i < source[s].numbers->quantities; i++) {
+            const char *of = case_of(&source[s].numbers->quantity[i]);
+            const struct member *m = all->list;
+            while (m < all->list + all->count &&
+                   (strcmp(m->source->name, source[s].name) || strcmp(m->of, of)))
+                m++;
+            if (m == all->list + all->count)
+                all->list[all->count++] = (struct member){.source = &source[s], .of = of};
+            else if (m->source != &source[s])
+                return br_fail(err, BR_BAD_INPUT,
+                               "two programs are called '%s', expected files of different names",
+                               source[s].name);
+        }
+    return BR_OK;
+}
+
+/* "fd measures max; fem measures l2, h1: ..." */
+static enum br_status refuse_errors(const struct members *all, struct br_error *err)
+{
+    char text[700] = "", name[NAME];
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        size_t said = 0;
+        br_append(text, sizeof text, m == all->list ? "" : "; ");
+        say_name(m, text, sizeof text);
+        for (size_t i = 0; i < m->source->numbers->quantities; i++)
+            if (has(m, i, name) && find_error(m, name, all->cost) == i)
+                br_append(text, sizeof text, "%s%s", said++ ? ", " : " measures ", name);
+        if (!said)
+            br_append(text, sizeof text, " measures no error");
+    }
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: expected an error of one name that all measure ('read:' of a study file "
+                   "names it, 'column:' that of a table)",
+                   text);
+}
+
+/* Whether all measure an error; two units refuse. */
+static bool all_measure(struct members *all, const char *name, struct br_work_precision *w,
+                        struct br_error *err)
+{
+    w->unit = NULL;
+    for (struct member *m = all->list; m < all->list + all->count; m++) {
+        if ((m->error = find_error(m, name, all->cost)) == SIZE_MAX)
+            return false;
+        const char *unit = m->source->numbers->quantity[m->error].unit;
+        if (unit && w->unit && strcmp(unit, w->unit) != 0)
+            br_fail(err, BR_BAD_INPUT, "%s: %s has the unit %s, and %s in another program",
+                    m->source->path, name, unit, w->unit);
+        w->unit = unit ? unit : w->unit;
+    }
+    snprintf(w->quantity, sizeof w->quantity, "%s", name);
+    return true;
+}
+
+/* ---- points ---- */
+
+static double cost_at(const struct member *m, const struct br_numbers_row *row, double *half)
+{
+    static const double scatter = 0.1; /* of a clock that was read once */
+    const double cost = row->number[m->cost] * m->factor;
+    const double deviation = row->deviation[m->cost] * m->factor;
+    *half = isfinite(deviation) ? 2 * deviation : m->kind <= BR_COST_TIME ? scatter * cost : 0;
+    return cost > 0 ? cost : (double)NAN;
+}
+
+/* The axis along which the rows are one line; BR_AXES: they are none. */
+static enum br_axis line_of(const struct br_numbers *n)
+{
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
+        bool line = n->column[axis];
+        for (size_t i = 1; i < n->rows && line; i++)
+            line = n->row[i].z[axis] < n->row[i - 1].z[axis];
+        if (line)
+            return axis;
+    }
+    return BR_AXES;
+}
+
+static void take_points(struct br_work_precision *w, const struct member *m)
+{
+    const struct br_numbers *n = m->source->numbers;
+    struct br_work_program *p = &w->program[w->programs];
+    const enum br_axis axis = p->axis = line_of(n);
+    say_name(m, p->name, sizeof p->name);
+    for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
+        if (row->absent && row->absent[m->error])
+            continue;
+        struct br_work_point *at = &w->point[w->points];
+        *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
+        at->cost = cost_at(m, row, &at->half);
+        at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
+        at->is_start = isfinite(row->seconds) && at->cost <= at->half; /* no more is left of it */
+        br_numbers_name_cell(n, row, at->label);
+        if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
+            w->points++;
+            p->points++;
+        } else if (!p->failed++) {
+            strcpy(p->first, at->label);
+            p->failure = row->failure       ? row->failure
+                         : isnan(at->error) ? "no error"
+                         : !(at->error > 0) ? "an error of 0"
+                         : m->kind == BR_COST_MEMORY
+                             ? "no peak memory is known, as of a small program"
+                             : "no cost";
+        }
+    }
+    w->programs++;
+}
+
+/* The exponent of the costs between a point and the next finer one. */
+static double exponent(const struct br_work_point *p)
+{
+    return log(p[1].cost / p[0].cost) / log(p[0].z / p[1].z);
+}
+
+/* Coarse sizes whose cost hardly grows: a run there is mostly its start. *start (out): that. */
+static void find_starts(struct br_work_point *p, size_t count, double *start)
+{
+    static const double hardly = 0.5;
+    double most = 0;
+    for (size_t i = 0; i + 1 < count; i++)
+        most = fmax(most, exponent(&p[i]));
+    for (size_t i = 0; i + 1 < count && exponent(&p[i]) < fmin(hardly, most / 2); i++)
+        p[i].is_start = true;
+    for (size_t i = 0; i < count; i++)
+        if (p[i].is_start)
+            *start = *start > 0 ? fmin(*start, p[i].cost) : p[i].cost;
+}
+
+static enum br_status check_growth(const struct br_work_precision *w, const struct member *m,
+                                   const struct br_work_point *p, size_t count,
+                                   struct br_error *err)
+{
+    static const double clearly = 0.9;
+    const struct br_work_point *last = p + count - 1;
+    if (!count || !(last->cost + last->half < clearly * (p->cost - p->half)))
+        return BR_OK;
+    return br_fail(err, BR_BAD_INPUT,
+                   "%s: %s falls from %.3g at %s to %.3g%s%s at %s, expected a cost that grows "
+                   "with finer sizes; --cost NAME names another one",
+                   m->source->path, w->cost, p->cost, p->label, last->cost,
+                   *w->cost_unit ? " " : "", w->cost_unit, last->label);
+}
+
+/* ---- how costs grow ---- */
+
+enum line { COST_OVER_SIZE, ERROR_OVER_SIZE, ERROR_OVER_COST };
+
+static int by_size(const void *a, const void *b)
+{
+    const struct br_order_point *x = a, *y = b;
+    return (x->z < y->z) - (x->z > y->z);
+}
+
+/* The order along the points of a program. Costs are without its start, and without the sizes that
+ * are mostly that; over costs, of the points of its own front. */
+static enum br_status find_order(const struct br_work_program *program,
+                                 const struct br_work_point *p, enum line what,
+                                 struct br_estimate *order, struct br_error *err)
+{
+    const size_t count = program->points;
+    struct br_order_point *at = br_allocate(count + 1, sizeof *at);
+    struct br_line_order found;
+    size_t taken = 0;
+    if (!at)
+        return br_no_memory(err, "the costs");
+    for (size_t i = 0; i < count; i++) {
+        const bool small = p[i].is_start || p[i].cost - program->start <= 2 * p[i].half;
+        if (what == ERROR_OVER_COST ? small || !p[i].own
+                                    : isnan(p[i].z) || (small && what == COST_OVER_SIZE))
+            continue;
+        struct br_order_point *to = &at[taken++];
+        *to = (struct br_order_point){.z = p[i].z, .error = p[i].error};
+        const double cost = p[i].cost - program->start;
+        if (what == ERROR_OVER_COST)
+            to->z = 1 / cost;
+        if (what == COST_OVER_SIZE) {
+            to->error = 1 / cost;
+            to->deviation = p[i].half / 2 / pow(cost, 2);
+        }
+    }
+    qsort(at, taken, sizeof *at, by_size);
+    const enum br_status status = br_line_order_find(at, taken, &found, err);
+    *order = br_order_determined(&found.order) ? found.order : (struct br_estimate){NAN, NAN, NAN};
+    free(at);
+    return status;
+}
+
+/* What the wanted error costs, if the order of the error and the growth of the cost stay. */
+static void foresee(struct br_work_program *p, const struct br_numbers *n,
+                    const struct br_work_point *finest, const struct br_estimate *order)
+{
+    static const double most = 100; /* times finer: nobody knows more */
+    const double next = pow(10, ceil(log10(finest->error)) - 1);
+    p->wanted = finest->error > 1e-6 ? 1e-6 : next;
+    if (!(pow(finest->error / p->wanted, 1 / order->value) <= most))
+        p->wanted = next;
+    const double less = finest->error / p->wanted, finer = pow(less, 1 / order->value);
+    p->needed = (struct br_estimate){NAN, NAN, NAN};
+    if (!(finer <= most && p->growth.low > 0))
+        return;
+    const struct br_resolution_column *c = n->column[p->axis];
+    const double given = br_numbers_given(c, finest->z / finer, n->dimension);
+    const double cost = finest->cost - p->start;
+    p->needed.value = p->start + cost * pow(less, p->growth.value / order->value);
+    p->needed.low = p->start + (cost - finest->half) * pow(less, p->growth.low / order->high);
+    p->needed.high = p->start + (cost + finest->half) * pow(less, p->growth.high / order->low);
+    snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
+}
+
+static enum br_status study_program(struct br_work_precision *w, size_t program,
+                                    const struct member *m, struct br_error *err)
+{
+    struct br_work_program *p = &w->program[program];
+    struct br_work_point *at = w->point;
+    struct br_estimate order, over;
+    while (at < w->point + w->points && at->program != program)
+        at++;
+    if (find_order(p, at, COST_OVER_SIZE, &p->growth, err) ||
+        find_order(p, at, ERROR_OVER_SIZE, &order, err) ||
+        find_order(p, at, ERROR_OVER_COST, &over, err))
+        return err->status;
+    p->tenth = (struct br_estimate){pow(10, 1 / over.value), pow(10, 1 / over.high),
+                                    pow(10, 1 / over.low)};
+    for (size_t i = 0; i < p->points && at[i].is_start; i++)
+        strcpy(p->starts, at[i].label);
+    p->needed = (struct br_estimate){NAN, NAN, NAN};
+    p->wanted = NAN;
+    if (p->points)
+        foresee(p, m->source->numbers, &at[p->points - 1], &order);
+    return BR_OK;
+}
+
+/* ---- all ---- */
+
+static const char *name_cost(const struct members *all)
+{
+    static const char *const names[] = {"processor time", "wall time",  "time",
+                                        "dofs",           "iterations", "peak memory"};
+    enum br_cost kind = all->list->kind;
+    for (size_t i = 0; i < all->count; i++) /* a column may not say which time it has */
+        kind = all->list[i].kind == BR_COST_TIME ? BR_COST_TIME : kind;
+    return kind == BR_COSTS ? all->cost : names[kind];
+}
+
+static enum br_status fill(struct br_work_precision *w, const struct members *all,
+                           struct br_error *err)
+{
+    size_t rows = 0;
+    for (size_t i = 0; i < all->count; i++)
+        rows += all->list[i].source->numbers->rows;
+    w->program = br_allocate(all->count, sizeof *w->program);
+    w->point = br_allocate(rows + 1, sizeof *w->point);
+    if (!w->program || !w->point)
+        return br_no_memory(err, "the programs");
+    snprintf(w->cost, sizeof w->cost, "%s", name_cost(all));
+    w->cost_unit = all->list->unit;
+    w->is_time = all->list->kind <= BR_COST_TIME;
+    for (const struct member *m = all->list; m < all->list + all->count; m++) {
+        struct br_work_point *first = w->point + w->points;
+        take_points(w, m);
+        const size_t count = w->points - (size_t)(first - w->point);
+        if (w->program[w->programs - 1].axis == BR_AXES)
+            continue;
+        if (check_growth(w, m, first, count, err))
+            return err->status;
+        if (w->is_time)
+            find_starts(first, count, &w->program[w->programs - 1].start);
+    }
+    if (!w->points)
+        return br_fail(err, BR_NOT_FINITE,
+                       "no run has an error %s above 0 and a cost; the first: %s", w->quantity,
+                       w->program->failure);
+    br_work_front(w->point, w->points);
+    for (size_t i = 0; i < w->programs; i++)
+        if (study_program(w, i, &all->list[i], err))
+            return err->status;
+    return BR_OK;
+}
+
+/* One for each error of the first program that all measure. */
+static enum br_status find_all(struct members *all, struct br_work_precision *works, size_t *count,
+                               struct br_error *err)
+{
+    const struct member *first = all->list;
+    char name[NAME];
+    err->status = BR_OK;
+    for (size_t i = 0; i < first->source->numbers->quantities; i++)
+        if (has(first, i, name) && all_measure(all, name, &works[*count], err) && !err->status &&
+            fill(&works[(*count)++], all, err))
+            return err->status;
+    return err->status || *count ? err->status : refuse_errors(all, err);
+}
+
+enum br_status br_work_find(const struct br_work_source *source, size_t sources, const char *cost,
+                            struct br_work_precision **works, size_t *count, struct br_error *err)
+{
+    struct members all = {.cost = cost};
+    *count = 0;
+    *works = br_allocate(source->numbers->quantities + 1, sizeof **works);
+    bool failed = !*works && br_no_memory(err, "the programs");
+    failed = failed || list_members(source, sources, &all, err) || choose_cost(&all, err) ||
+             find_all(&all, *works, count, err);
+    free(all.list);
+    return failed ? err->status : BR_OK;
+}
+
+void br_work_clear(struct br_work_precision *works, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        free(works[i].program);
+        free(works[i].point);
+    }
+    free(works);
+}
+
+size_t br_work_targets(const struct br_work_precision *w, double target[BR_WORK_DIGITS])
+{
+    double most = 0, least = INFINITY;
+    for (size_t i = 0; i < w->points; i++) {
+        most = fmax(most, w->point[i].error);
+        least = fmin(least, w->point[i].error);
+    }
+    size_t count = 0;
+    int digit = (int)floor(log10(most));
+    digit += least > pow(10, digit); /* no power of ten lies between them */
+    for (; count < BR_WORK_DIGITS && (target[count] = pow(10, digit)) >= least; digit--)
+        count++;
+    return count;
+}

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a digit costs: several programs beside each other. */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "orders/work.h"
+#include "tables/report_cells.h"
+#include "tables/reports.h"
+
+enum { TEXT = 64 };
+
+/* "0.12 s"; a cost without a unit is a number of something: "4225 dofs". */
+static const char *cost_text(const struct br_work_precision *w, double cost, char text[TEXT])
+{
+    snprintf(text, TEXT, *w->cost_unit ? "%.3g %.30s" : "%.8g %.30s", cost,
+             *w->cost_unit ? w->cost_unit : w->cost);
+    return text;
+}
+
+/* "1e-3": a power of ten. */
+static const char *power_text(double power, char text[TEXT])
+{
+    snprintf(text, TEXT, "1e%.0f", log10(power));
+    return text;
+}
+
+/* ---- the cheapest ---- */
+
+/* The two cheapest programs to an error; `points`: there is none. */
+struct cheapest {
+    size_t best, next;
+    bool tied;
+};
+
+static struct cheapest find_cheapest(const struct br_work_precision *w, double target)
+{
+    struct cheapest c = {.best = br_work_cheapest(w->point, w->points, target, SIZE_MAX, SIZE_MAX)};
+    const struct br_work_point *p = w->point;
+    c.next = br_work_cheapest(p, w->points, target, SIZE_MAX, p[c.best].program);
+    c.tied = c.next < w->points && br_work_ties(&p[c.best], &p[c.next]);
+    return c;
+}
+
+static void answer_digit(struct br_document *d, const struct br_work_precision *w, bool several,
+                         double target)
+{
+    const struct cheapest c = find_cheapest(w, target);
+    const struct br_work_point *best = &w->point[c.best], *next = &w->point[c.next];
+    const char *tie = w->is_time ? ", alike by the clock" : ", equal";
+    char power[TEXT], cost[TEXT], other[TEXT];
+    br_put_answer(d, "%s%s to %s%s: %s, %s, %s", several ? w->quantity : "",
+                  several ? ": cheapest" : "Cheapest", power_text(target, power), c.tied ? tie : "",
+                  w->program[best->program].name, best->label, cost_text(w, best->cost, cost));
+    if (c.next < w->points)
+        br_put_more(d, "; %s: %s, %s%s%s.", c.tied ? "and" : "next", w->program[next->program].name,
+                    c.tied ? next->label : "", c.tied ? ", " : "", cost_text(w, next->cost, other));
+    else
+        br_put_more(d, w->programs > 1 ? "; no other one reaches it." : ".");
+}
+
+/* The digits from the last one back, every second or third where there are many. */
+static void answer_digits(struct br_document *d, const struct br_work_precision *w, size_t works)
+{
+    const size_t most = works > 4 ? 1 : 4 / works;
+    double target[BR_WORK_DIGITS];
+    const size_t count = br_work_targets(w, target), step = (count + most - 1) / most;
+    for (size_t i = count ? (count - 1) % step : 0; i < count; i += step)
+        answer_digit(d, w, works > 1, target[i]);
+}
+
+static void put_point(struct br_document *d, const struct br_work_precision *w, size_t i, bool next)
+{
+    const struct br_work_point *p = &w->point[i < w->points ? i : 0];
+    br_put_blank(d, i >= w->points);
+    BR_PUT(d, br_text(w->program[p->program].name), .key = next ? "next" : "program");
+    BR_PUT(d, br_text(p->label), .key = next ? "next_size" : "size", .heading = "size");
+    if (!next)
+        BR_PUT(d, br_number(p->error), .key = "error", .unit = w->unit, .format = "%.2e");
+    BR_PUT(d, br_number(p->cost), .key = next ? "next_cost" : "cost", .heading = w->cost,
+           .unit = w->cost_unit);
+    if (i < w->points)
+        br_put_shown(d, *w->cost_unit ? "%.3g" : "%.8g", p->cost);
+    br_hide(d, next ? "next_half" : "half", w->cost_unit, br_number(p->half));
+    if (!next)
+        BR_PUT(d, br_text(p->is_start ? "mostly start" : NULL), .key = "remark",
+               .flags = BR_VARIES);
+    br_put_blank(d, false);
+}
+
+static void put_digits(struct br_document *d, const struct br_work_precision *w)
+{
+    double target[BR_WORK_DIGITS];
+    const size_t count = br_work_targets(w, target);
+    bool ties = false;
+    for (size_t i = 0; i < count; i++)
+        ties |= find_cheapest(w, target[i]).tied;
+    for (size_t i = 0; i < count; i++) {
+        const struct cheapest c = find_cheapest(w, target[i]);
+        br_put_row(d);
+        BR_PUT(d, br_text(w->quantity), .key = "quantity", .flags = BR_VARIES);
+        BR_PUT(d, br_number(target[i]), .key = "to_error", .heading = "to error", .format = "%.0e");
+        put_point(d, w, c.best, false);
+        put_point(d, w, c.next, true);
+        BR_PUT(d,
+               br_text(!c.tied      ? NULL
+                       : w->is_time ? "alike by the clock"
+                                    : "equal"),
+               .key = "tie", .flags = ties ? 0 : BR_FILES_ONLY);
+    }
+}
+
+/* ---- how costs grow, and what failed ---- */
+
+static const char *times_text(const struct br_estimate *e, char text[2 * TEXT])
+{
+    snprintf(text, 2 * TEXT, "%.3g [%.3g, %.3g]", e->value, e->low, e->high);
+    return text;
+}
+
+static void answer_program(struct br_document *d, const struct br_work_precision *w,
+                           const struct br_work_program *p)
+{
+    char text[2 * TEXT], power[TEXT];
+    const char *between = ":";
+    if (isnan(p->growth.value) && isnan(p->tenth.value) && isnan(p->needed.value))
+        return;
+    br_put_answer(d, "%s", p->name);
+    if (isfinite(p->growth.value)) {
+        br_put_more(d, "%s %s grows like %s^-%s", between, w->cost, br_axis_letters[p->axis],
+                    br_order_text(&p->growth, text, TEXT));
+        between = ",";
+    }
+    if (isfinite(p->tenth.value)) {
+        br_put_more(d, "%s a tenth of the error costs %s times as much", between,
+                    times_text(&p->tenth, text));
+        between = ",";
+    }
+    if (isfinite(p->needed.value))
+        br_put_more(d, "%s %s would cost %s %s (%s)", between, power_text(p->wanted, power),
+                    br_interval_text(&p->needed, text, sizeof text),
+                    *w->cost_unit ? w->cost_unit : w->cost, p->at);
+    br_put_more(d, ".");
+}
+
+static void put_growth(struct br_document *d, const struct br_work_precision *w)
+{
+    char text[2 * TEXT];
+    for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(w->quantity), .key = "quantity", .flags = BR_VARIES);
+        BR_PUT(d, br_text(p->name), .key = "program");
+        BR_PUT(d, br_text(p->axis < BR_AXES ? br_axis_letters[p->axis] : NULL), .key = "in",
+               .flags = BR_VARIES);
+        BR_PUT_ESTIMATE(d, &p->growth, br_order_text(&p->growth, text, TEXT), .key = "growth",
+                        .heading = "cost grows like 1/size to the power");
+        BR_PUT_ESTIMATE(d, &p->tenth, times_text(&p->tenth, text), .key = "tenth",
+                        .heading = "a tenth of the error costs, times");
+        BR_PUT(d, br_number(p->wanted), .key = "wanted", .format = "%.0e");
+        BR_PUT_ESTIMATE(d, &p->needed, br_interval_text(&p->needed, text, sizeof text),
+                        .key = "needed", .heading = "which would cost", .unit = w->cost_unit);
+        BR_PUT(d, br_text(*p->at ? p->at : NULL), .key = "at");
+        BR_PUT(d, br_text(*p->starts ? p->starts : NULL), .key = "mostly_start_up_to",
+               .heading = "mostly start up to", .flags = BR_VARIES);
+    }
+}
+
+static void say_troubles(struct br_document *d, const struct br_work_precision *w)
+{
+    char cost[TEXT];
+    for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
+        if (p->failed)
+            br_put_answer(d, "%s: %zu of %zu runs without a result, the first at %s: %s.", p->name,
+                          p->failed, p->failed + p->points, p->first, p->failure);
+        if (*p->starts)
+            br_put_answer(d, "%s: up to %s its %s is mostly its start, %s.", p->name, p->starts,
+                          w->cost, cost_text(w, p->start, cost));
+    }
+}
+
+static void put_runs(struct br_document *d, const struct br_work_precision *w)
+{
+    for (size_t i = 0; i < w->points; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(w->quantity), .key = "quantity");
+        put_point(d, w, i, false);
+        br_hide(d, "z", NULL, br_number(w->point[i].z));
+        BR_PUT(d, br_truth(w->point[i].front), .key = "front");
+        BR_PUT(d, br_truth(w->point[i].own), .key = "own_front", .heading = "its own front");
+    }
+}
+
+void br_report_work(const struct br_work_precision *works, size_t count, const char *machine,
+                    struct br_document *d)
+{
+    char title[200];
+    br_document_begin(d, "trade", "beamrate trade of programs", 1, "What a digit costs");
+    for (size_t i = 0; i < count; i++)
+        answer_digits(d, &works[i], count);
+    say_troubles(d, works);
+    for (size_t i = 0; i < works->programs && count == 1; i++)
+        answer_program(d, works, &works->program[i]);
+    snprintf(title, sizeof title, "Cheapest to an error, by %.100s", works->cost);
+    br_put_table(d, "cheapest", title, 0);
+    for (size_t i = 0; i < count; i++)
+        put_digits(d, &works[i]);
+    br_put_table(d, "growth", "How costs grow, and what more digits cost if both orders stay", 0);
+    for (size_t i = 0; i < count; i++)
+        put_growth(d, &works[i]);
+    br_put_table(d, "runs", "All runs", BR_FILES_ONLY | BR_MAIN);
+    for (size_t i = 0; i < count; i++)
+        put_runs(d, &works[i]);
+    br_hide_fact(d, br_text(works->cost), NULL, "cost");
+    br_hide_fact(d, br_text(works->cost_unit), NULL, "cost_unit");
+    if (machine)
+        br_put_note(
+            d,
+            "Times of programs that were run: medians of runs after one that warms up, "
+            "until they are known to 5 %% or have taken 10 s, one run at a time, without the "
+            "time of a process that does nothing. On %s.",
+            machine);
+    br_put_note(d,
+                "Alike by the clock: the scatter of the times may change which one is less. A time "
+                "that was read once is known to 10 %%.");
+}
