@@ -364,7 +364,7 @@ TEST(test_scatter)
     static const double slopes[] = {0, 0.02, 2};
     struct br_test_random random = {20261231};
     for (size_t s = 0; s < 3; s++)
-        for (size_t count = 3; count < 7; count++) {
+        for (size_t count = 3; count < 7; count += br_test_long() ? 1 : 3) {
             size_t scatter = 0, diverges = 0, stated = 0, right = 0;
             for (int trial = 0; trial < TRIALS; trial++) {
                 struct br_line_value line[6];

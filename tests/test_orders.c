@@ -106,9 +106,10 @@ TEST(test_resolutions)
     n = read_with("n,h,l2\n1,.3,3\n2,.15,2\n4,.075,1\n", &plain); /* to a constant factor */
     assert_string_equal(n.column[BR_AXIS_SPACE]->name, "h");
     br_numbers_clear(&n);
-    refuse_with("n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
-                "t.csv: the sizes are not clear: h = 1/n gives 0.79; h from column h gives 0.79: --column "
-                "n=n, or --column h=h, decides");
+    refuse_with(
+        "n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
+        "t.csv: the sizes are not clear: h = 1/n gives 0.79; h from column h gives 0.79: --column "
+        "n=n, or --column h=h, decides");
     n = read_with("n,l2\n1000,3\n1001,2\n1000000,1\n1000001,1\n", &plain); /* two are two */
     assert_true(n.row[0].z[0] > n.row[1].z[0] && n.row[2].z[0] > n.row[3].z[0]);
     br_numbers_clear(&n);
