@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "orders/expectation/growth.h"
+
 static enum br_status stopped(const struct br_numbers *numbers, struct br_error *err)
 {
     return br_observer_stops(numbers->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
@@ -162,10 +164,11 @@ static double width_of(const struct br_estimate *order)
 }
 
 /* Takes exponential convergence from the same errors, as a power of e^-degree, if that is all that
- * they show. */
+ * they show, and one power of the size does not describe them better. */
 static void take_exponential(struct br_case *c, const struct br_case *by)
 {
-    bool all = !by->law && by->order.low > 0 && width_of(&by->order) <= by->order.value;
+    bool all = !by->law && by->order.low > 0 && width_of(&by->order) <= by->order.value &&
+               br_squares_of_power(by, by->points) < br_squares_of_power(c, c->points);
     for (size_t i = 0; i < by->points; i++)
         all &= !by->point[i].lost;
     if (!all)

@@ -449,12 +449,20 @@ TEST(test_degrees)
         br_numbers_clear(&n);
         free(text);
     }
-    q.table = (char *)"p,e\n1,1\n2,.0625\n3,.0123\n4,.0039\n5,.0016\n6,.00077\n"; /* p^-4 */
-    MUST(br_orders_read(&q, &n, &err));
-    MUST(br_orders_find(&n, 0, &o, &err));
-    assert_true(isnan(o.of[0].line[0].observed.factor.value));
-    br_orders_clear(&o);
-    br_numbers_clear(&n);
+    static const char *const powers[] = {
+        "p,e\n1,1\n2,.0625\n3,.0123\n4,.0039\n5,.0016\n6,.00077\n", /* p^-4 */
+        "p,e\n1,6.25e-2\n2,1.2346e-2\n3,3.9063e-3\n4,1.6e-3\n5,7.716e-4\n6,4.1649e-4\n"
+        "7,2.4414e-4\n8,1.5242e-4\n"}; /* (p + 1)^-4 */
+    for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+        char *text = strdup(powers[i]);
+        struct br_orders_request r = {.path = q.path, .table = text};
+        MUST(br_orders_read(&r, &n, &err));
+        MUST(br_orders_find(&n, 0, &o, &err));
+        assert_true(isnan(o.of[0].line[0].observed.factor.value));
+        br_orders_clear(&o);
+        br_numbers_clear(&n);
+        free(text);
+    }
     q.table = (char *)"degree,e\n0,8e-1\n1,1.01e-1\n2,1.25e-2\n3,1.56e-3\n4,1.96e-4\n";
     MUST(br_expectations_read("e: h exponential 8 +- 0.5", 0, &q.expectation, &q.expectations,
                               &err));

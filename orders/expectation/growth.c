@@ -53,14 +53,14 @@ static struct law find_law(const struct br_case *c, double p, double q)
 
 /* ---- the rows before ---- */
 
-/* What one power leaves of so many coarse rows, in squares of logarithms. */
-static double squares_before(const struct br_case *c, size_t rows)
+double br_squares_of_power(const struct br_case *c, size_t rows)
 {
-    double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-    const double n = (double)rows;
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
     for (size_t i = 0; i < rows; i++) {
         const double log_z = log(c->point[i].z), log_e = log(c->point[i].error);
-        x += log_z, y += log_e, xx += log_z * log_z, xy += log_z * log_e, yy += log_e * log_e;
+        if (!isfinite(log_e))
+            continue;
+        n++, x += log_z, y += log_e, xx += log_z * log_z, xy += log_z * log_e, yy += log_e * log_e;
     }
     xx -= x * x / n, xy -= x * y / n, yy -= y * y / n;
     return fmax(0, yy - xy * xy / xx);
@@ -96,8 +96,9 @@ const struct br_point *br_turning_point(const struct br_case *c)
         return NULL;
     const double before = least > BENT ? (double)(least - BENT) : 0;
     const bool scatters =
-        before > 0 && gsl_cdf_fdist_Q((left + digits * digits) /
-                                          (squares_before(c, least - 1) / before + digits * digits),
-                                      freedom, before) < sure;
+        before > 0 &&
+        gsl_cdf_fdist_Q((left + digits * digits) /
+                            (br_squares_of_power(c, least - 1) / before + digits * digits),
+                        freedom, before) < sure;
     return scatters ? NULL : c->point + least;
 }
