@@ -156,6 +156,21 @@ static double roots(double z)
 
 /* Laws with a correction have no order near zero, and their intervals do not exclude it, from as
  * many rows on as show that the order falls. */
+/* Errors fall to round-off: the rows before it show the rate. */
+TEST(test_exponential_to_a_floor)
+{
+    static const double error[] = {1.93e-2, 2.064e-4, 2.016e-8, 1.063e-15, 7.267e-16, 8.576e-16};
+    enum { COUNT = sizeof error / sizeof *error };
+    struct br_order_point point[COUNT];
+    struct br_line_order found;
+    for (size_t i = 0; i < COUNT; i++)
+        point[i] = (struct br_order_point){.z = ldexp(0.25, -(int)i), .error = error[i]};
+    find(point, COUNT, &found);
+    assert_true(found.law[BR_LAW_EXPONENTIAL] > 0.5 && found.power == 1 && found.last == 2);
+    assert_true(found.rate.low > 1 && found.rate.low < 1.15 && found.rate.high > 1.15 &&
+                found.rate.high < 1.3);
+}
+
 TEST(test_small_orders)
 {
     static const struct {

@@ -215,7 +215,7 @@ void br_window_all(struct br_mixture *all, const struct br_rows *r, struct br_la
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1, least = all->few ? 2 : 3;
     const struct br_windows *within = &all->within;
     const double prior = p.weight;
-    const bool bends = p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT;
+    const bool bends = p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT && p.law != BR_LAW_EXPONENTIAL;
     if (within->last + 2 < n)
         find_means(r);
     for (p.first = within->first; p.first <= within->first_most; p.first += stride) {
