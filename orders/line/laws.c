@@ -54,6 +54,8 @@ BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES] = {
     ROW(BR_LAW_LOGARITHM, 1.5, 1.5, 30, 0.003, 0, "other powers of it"),
     ROW(BR_LAW_LOGARITHM, 2, 1.5, 30, 0.003, 0, "the same"),
     ROW(BR_LAW_LOGARITHM, -1, 1.5, 30, 0.003, 0, "the same: errors below the power"),
+    ROW(BR_LAW_LOGARITHM, -2, 1.5, 30, 0.003, 0, "differences of values like 1/log n"),
+    ROW(BR_LAW_LOGARITHM, -3, 1.5, 30, 0.003, 0, "the same, of 1/log^2 n"),
     ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0, "the error of the reference, or of a tolerance"),
     ROW(BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0, "the same in a norm of squares"),
     ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.001, 1, "the same with a next term h"),

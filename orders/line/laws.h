@@ -49,7 +49,7 @@ struct br_family {
     double curve; /* of a second correction, b z^curve of either sign, by regression; 0: none */
     const char *why;
 };
-enum { BR_FAMILIES = 40 };
+enum { BR_FAMILIES = 42 };
 extern BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES];
 
 /* X(name, value, off, why): all other priors; with the value `off` one does nothing. Each was

@@ -237,7 +237,9 @@ static void add_member(struct br_mixture *all, const struct br_rows *r, const st
 {
     const bool stays = is_floor(f);
     const double parameter = exp(c->from + c->width / 2), share = c->width / log(f->high / f->low);
-    if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
+    const bool of_values = f->law == BR_LAW_LOGARITHM && f->s < -1;
+    if ((all->few && (stays || parameter < br_priors.few_next)) || /* two differences show none */
+        (of_values && isnan(all->far)))
         return;
     add_law(all, r, f, parameter,
             log(f->prior * share * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));

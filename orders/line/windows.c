@@ -54,8 +54,9 @@ static bool is_of_law(const struct br_mixture *all, const struct br_law_part *p,
     case BR_LAW_CANCEL: /* values may grow as log n: differences of the order zero */
     case BR_LAW_LOCKING:
     case BR_LAW_SQUARES:
-    case BR_LAW_LOGARITHM:
         return p->mean > stays || isfinite(all->far);
+    case BR_LAW_LOGARITHM:
+        return p->mean > (isfinite(all->far) ? 0 : stays);
     case BR_LAW_KINK:
         return (p->mean > stays || (grows && !behind)) && other > (floors ? -stays : stays);
     case BR_LAW_NEXT:
