@@ -247,21 +247,27 @@ TEST(test_sequence_kinds)
     }
 }
 
-/* A small power converges; the inverse of a logarithm does, too, and no table shows where to. */
+/* A small power converges; the inverse of a logarithm, or of its square, does, too, and no table
+ * shows where to. */
 TEST(test_small_orders)
 {
     enum { ROWS = 7 };
-    double h[ROWS], power[ROWS], inverse[ROWS];
+    double h[ROWS], power[ROWS], inverse[ROWS], size[ROWS], square[ROWS];
     for (int i = 0; i < ROWS; i++) {
         h[i] = ldexp(0.125, -i);
         power[i] = 1 + 0.5 * pow(h[i], 0.2);
         inverse[i] = 1 - 0.1 / log(h[i]);
+        size[i] = ldexp(0.1, -i);
+        square[i] = 1 + 0.1 / pow(log(size[i]), 2);
     }
-    const struct br_grid_limit limit = limit_of(h, power, ROWS), none = limit_of(h, inverse, ROWS);
+    const struct br_grid_limit limit = limit_of(h, power, ROWS), none = limit_of(h, inverse, ROWS),
+                               no_square = limit_of(size, square, ROWS);
     assert_int_equal(limit.sequence, BR_MONOTONE_CONVERGENCE);
     assert_true(limit.value.low <= 1 && 1 <= limit.value.high);
     assert_int_equal(none.sequence, BR_SEQUENCE_UNKNOWN);
     IS_NAN(none.value.value);
+    assert_int_equal(no_square.sequence, BR_SEQUENCE_UNKNOWN);
+    IS_NAN(no_square.value.value);
 }
 
 /* The limit is in its interval, which is far narrower than Richardson's distance. One bad coarse
