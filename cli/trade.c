@@ -21,23 +21,12 @@ struct programs_run {
     size_t count;
 };
 
-static bool ends(const char *word, const char *end)
-{
-    const size_t length = strlen(word), least = strlen(end);
-    return length > least && strcmp(word + length - least, end) == 0;
-}
-
-static bool is_yaml(const char *word)
-{
-    return ends(word, ".yaml") || ends(word, ".yml");
-}
-
 bool br_is_trade_source(const char *word)
 {
     struct br_error err;
     char *text = NULL;
     const char *dot = strrchr(word, '.'), *slash = strrchr(word, '/');
-    if (!is_yaml(word))
+    if (!br_is_yaml(word))
         return strcmp(word, "-") == 0 || (dot && dot[1] && (!slash || dot > slash));
     const bool is =
         !br_text_load(word, BR_LONGEST_STUDY, "study file", &text, &err) && br_is_study_file(text);
@@ -49,25 +38,11 @@ static enum br_status read_source(struct programs_run *r, const char *word, stru
 {
     struct br_study_file *f = &r->file[r->files];
     struct br_work_source *s = &r->source[r->files++];
-    struct br_orders_request *q = &f->request;
-    char *text = NULL;
-    const bool standard = strcmp(word, "-") == 0;
-    if (br_text_load(standard ? BR_STANDARD_INPUT : word, BR_LONGEST_TABLE, "table or study file",
-                     &text, err))
-        return err->status;
-    if (is_yaml(word)) {
-        br_study_file_read(word, text, r->options, f, err);
-        free(text);
-    } else {
-        *q = br_orders_request_default();
-        q->table = text;
-        if (!(q->path = strdup(standard ? "standard input" : word)))
-            br_no_memory(err, "the table");
-    }
-    q->cost = r->cost;
-    s->path = q->path;
+    const enum br_status status = br_study_file_open(word, r->options, f, err);
+    f->request.cost = r->cost;
+    s->path = f->request.path;
     s->numbers = &f->numbers;
-    return err->status;
+    return status;
 }
 
 static enum br_status read_all(struct programs_run *r, const struct br_work_source *other,

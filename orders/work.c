@@ -72,27 +72,28 @@ bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b)
 
 /* ---- what a program has ---- */
 
-static void name_source(const char *path, char *name, size_t size)
+/* The name of a file without folders (out) and, but for endings like ".2", without its ending;
+ * returns its length. */
+static int stem_of(const char *path, const char **stem)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
-    const char *slash = strrchr(path, '/'), *from = slash && slash[1] ? slash + 1 : path;
-    const char *dot = strrchr(from, '.');
-    const bool cut = dot > from && dot[1] && strspn(dot + 1, letters) == strlen(dot + 1);
-    snprintf(name, size, "%.*s", cut ? (int)(dot - from) : (int)strlen(from), from);
+    const char *slash = strrchr(path, '/');
+    *stem = slash && slash[1] ? slash + 1 : path;
+    const char *dot = strrchr(*stem, '.');
+    const bool cut =
+        dot > *stem && dot[1] && !dot[1 + strspn(dot + 1, "abcdefghijklmnopqrstuvwxyz")];
+    return cut ? (int)(dot - *stem) : (int)strlen(*stem);
 }
 
 void br_work_name_sources(struct br_work_source *s, size_t count)
 {
-    char other[sizeof s->name];
     for (size_t i = 0; i < count; i++) {
-        name_source(s[i].path, s[i].name, sizeof s[i].name);
-        bool twice = false;
-        for (size_t k = 0; k < count && !twice; k++) {
-            name_source(s[k].path, other, sizeof other);
-            twice = k != i && strcmp(other, s[i].name) == 0;
-        }
-        if (twice)
-            snprintf(s[i].name, sizeof s[i].name, "%.299s", s[i].path);
+        const char *stem, *other;
+        const int length = stem_of(s[i].path, &stem);
+        snprintf(s[i].name, sizeof s[i].name, "%.*s", length, stem);
+        for (size_t k = 0; k < count; k++)
+            if (k != i && stem_of(s[k].path, &other) == length &&
+                strncmp(stem, other, (size_t)length) == 0)
+                snprintf(s[i].name, sizeof s[i].name, "%s", s[i].path);
     }
 }
 
@@ -143,20 +144,20 @@ static size_t find_error(const struct member *m, const char *name, const char *c
 /* Takes the column of that name, or, where it is NULL, those of that kind. */
 static void find_cost(struct member *m, const char *name, enum br_cost kind)
 {
-    static const char *const units[BR_COSTS + 1] = {"s", "s", "s", "", "", "MB", NULL};
     const struct br_numbers *n = m->source->numbers;
     char text[NAME];
     for (size_t i = 0; i < n->quantities + n->costs && !(name && m->costs); i++) {
         const char *unit = n->quantity[i].unit;
         double factor;
-        const enum br_cost is = has(m, i, text) ? br_cost_of(text, unit, &factor) : BR_COSTS;
-        if (*text && strcmp(case_of(&n->quantity[i]), m->of) == 0 &&
-            (name ? strcmp(text, name) == 0 : is == kind && is != BR_COSTS)) {
+        if (!has(m, i, text))
+            continue;
+        const enum br_cost is = br_cost_of(text, unit, &factor);
+        if (name ? strcmp(text, name) == 0 : is == kind && is != BR_COSTS) {
             m->costs++;
             m->cost = i;
             m->kind = is;
-            m->factor = is == BR_COST_MEMORY ? 1e-6 * factor : factor;
-            m->unit = units[is] ? units[is] : unit ? unit : "";
+            m->factor = factor;
+            m->unit = is < BR_COSTS ? br_costs[is].unit : unit ? unit : "";
         }
     }
 }
@@ -213,11 +214,6 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
 
 /* ---- what all have ---- */
 
-static void say_name(const struct member *m, char *text, size_t size)
-{
-    br_append(text, size, "%s%s", m->source->name, m->of);
-}
-
 static enum br_status list_members(const struct br_work_source *source, size_t sources,
                                    struct members *all, struct br_error *err)
 {
@@ -249,8 +245,7 @@ static enum br_status refuse_errors(const struct members *all, struct br_error *
     char text[700] = "", name[NAME];
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
         size_t said = 0;
-        br_append(text, sizeof text, m == all->list ? "" : "; ");
-        say_name(m, text, sizeof text);
+        br_append(text, sizeof text, "%s%s%s", m == all->list ? "" : "; ", m->source->name, m->of);
         for (size_t i = 0; i < m->source->numbers->quantities; i++)
             if (has(m, i, name) && find_error(m, name, all->cost) == i)
                 br_append(text, sizeof text, "%s%s", said++ ? ", " : " measures ", name);
@@ -310,7 +305,7 @@ static void take_points(struct br_work_precision *w, const struct member *m)
     const struct br_numbers *n = m->source->numbers;
     struct br_work_program *p = &w->program[w->programs];
     const enum br_axis axis = p->axis = line_of(n);
-    say_name(m, p->name, sizeof p->name);
+    snprintf(p->name, sizeof p->name, "%s%.99s", m->source->name, m->of);
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
         if (row->absent && row->absent[m->error])
             continue;
@@ -394,19 +389,15 @@ static enum br_status find_order(const struct br_work_program *program,
     if (!at)
         return br_no_memory(err, "the costs");
     for (size_t i = 0; i < count; i++) {
-        const bool small = p[i].is_start || p[i].cost - program->start <= 2 * p[i].half;
-        if (what == ERROR_OVER_COST ? small || !p[i].own
-                                    : isnan(p[i].z) || (small && what == COST_OVER_SIZE))
-            continue;
-        struct br_order_point *to = &at[taken++];
-        *to = (struct br_order_point){.z = p[i].z, .error = p[i].error};
         const double cost = p[i].cost - program->start;
-        if (what == ERROR_OVER_COST)
-            to->z = 1 / cost;
-        if (what == COST_OVER_SIZE) {
-            to->error = 1 / cost;
-            to->deviation = p[i].half / 2 / pow(cost, 2);
-        }
+        const bool small = p[i].is_start || cost <= 2 * p[i].half;
+        if (what == COST_OVER_SIZE && !small && !isnan(p[i].z))
+            at[taken++] = (struct br_order_point){
+                .z = p[i].z, .error = 1 / cost, .deviation = p[i].half / 2 / pow(cost, 2)};
+        else if (what == ERROR_OVER_SIZE && !isnan(p[i].z))
+            at[taken++] = (struct br_order_point){.z = p[i].z, .error = p[i].error};
+        else if (what == ERROR_OVER_COST && !small && p[i].own)
+            at[taken++] = (struct br_order_point){.z = 1 / cost, .error = p[i].error};
     }
     qsort(at, taken, sizeof *at, by_size);
     const enum br_status status = br_line_order_find(at, taken, &found, err);
@@ -425,7 +416,6 @@ static void foresee(struct br_work_program *p, const struct br_numbers *n,
     if (!(pow(finest->error / p->wanted, 1 / order->value) <= most))
         p->wanted = next;
     const double less = finest->error / p->wanted, finer = pow(less, 1 / order->value);
-    p->needed = (struct br_estimate){NAN, NAN, NAN};
     if (!(finer <= most && p->growth.low > 0))
         return;
     const struct br_resolution_column *c = n->column[p->axis];
@@ -464,12 +454,10 @@ static enum br_status study_program(struct br_work_precision *w, size_t program,
 
 static const char *name_cost(const struct members *all)
 {
-    static const char *const names[] = {"processor time", "wall time",  "time",
-                                        "dofs",           "iterations", "peak memory"};
     enum br_cost kind = all->list->kind;
     for (size_t i = 0; i < all->count; i++) /* a column may not say which time it has */
         kind = all->list[i].kind == BR_COST_TIME ? BR_COST_TIME : kind;
-    return kind == BR_COSTS ? all->cost : names[kind];
+    return kind == BR_COSTS ? all->cost : br_costs[kind].name;
 }
 
 static enum br_status fill(struct br_work_precision *w, const struct members *all,
