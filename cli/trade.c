@@ -41,7 +41,6 @@ static enum br_status read_source(struct programs_run *r, const char *word, stru
     const enum br_status status = br_study_file_open(word, r->options, f, err);
     f->request.cost = r->cost;
     s->path = f->request.path;
-    s->numbers = &f->numbers;
     return status;
 }
 
@@ -70,7 +69,7 @@ static enum br_status compute(struct programs_run *r, struct br_error *err)
     for (size_t i = 0; i < r->files && !status; i++) {
         br_progress_part(i, r->files);
         r->file[i].request.observer = observer;
-        status = br_orders_read(&r->file[i].request, &r->file[i].numbers, err);
+        status = br_orders_read(&r->file[i].request, &r->source[i].numbers, err);
     }
     br_progress_end();
     status = br_progress_result(status, err);
@@ -90,8 +89,8 @@ static enum br_status write_all(struct programs_run *r, struct br_error *err)
         runs |= r->file[i].request.command != NULL;
     br_report_work(r->works, r->count, runs ? provenance.machine : NULL, d);
     for (size_t i = 0; i < r->files; i++)
-        if (r->file[i].numbers.taken)
-            br_put_note(d, "%s: %s.", r->source[i].name, r->file[i].numbers.taken);
+        if (r->source[i].numbers.taken)
+            br_put_note(d, "%s: %s.", r->source[i].name, r->source[i].numbers.taken);
     br_session_draw(r->session, d, br_work_draw(r->works, r->count, d->caption),
                     "Errors over costs, with each program's own best and the front of all");
     br_put_provenance(d, &provenance);
@@ -107,12 +106,12 @@ enum br_status br_trade_sources(const struct br_options *options, struct br_sess
     bool failed = br_session_alone(err) || read_all(&r, other, others, err) ||
                   br_session_open(session, err) || compute(&r, err) || write_all(&r, err);
     for (size_t i = 0; i < r.files && !failed; i++)
-        if (br_numbers_check_runs(&r.file[i].numbers, err))
+        if (br_numbers_check_runs(&r.source[i].numbers, err))
             failed = br_failed_in(err, r.source[i].name);
     br_work_clear(r.works, r.count);
     for (size_t i = 0; i < r.files; i++)
         br_study_file_clear(&r.file[i]);
     free(r.file);
-    free(r.source);
+    br_work_sources_clear(r.source, r.files); /* the others are borrowed */
     return failed ? err->status : BR_OK;
 }

@@ -123,7 +123,7 @@ static const char *case_of(const struct br_quantity *q)
 /* Whether column i is of this program; its name without the case (out). */
 static bool has(const struct member *m, size_t i, char name[NAME])
 {
-    const struct br_quantity *q = &m->source->numbers->quantity[i];
+    const struct br_quantity *q = &m->source->numbers.quantity[i];
     const size_t length = q->case_at ? q->case_at : strlen(q->name);
     snprintf(name, NAME, "%.*s", (int)(length < NAME ? length : NAME - 1), q->name);
     return strcmp(case_of(q), m->of) == 0;
@@ -132,7 +132,7 @@ static bool has(const struct member *m, size_t i, char name[NAME])
 /* The error of that name; SIZE_MAX: there is none. */
 static size_t find_error(const struct member *m, const char *name, const char *cost)
 {
-    const struct br_numbers *n = m->source->numbers;
+    const struct br_numbers *n = &m->source->numbers;
     char text[NAME];
     for (size_t i = 0; i < n->quantities; i++)
         if (has(m, i, text) && !n->quantity[i].is_value && strcasecmp(text, name) == 0 &&
@@ -144,7 +144,7 @@ static size_t find_error(const struct member *m, const char *name, const char *c
 /* Takes the column of that name, or, where it is NULL, those of that kind. */
 static void find_cost(struct member *m, const char *name, enum br_cost kind)
 {
-    const struct br_numbers *n = m->source->numbers;
+    const struct br_numbers *n = &m->source->numbers;
     char text[NAME];
     for (size_t i = 0; i < n->quantities + n->costs && !(name && m->costs); i++) {
         const char *unit = n->quantity[i].unit;
@@ -189,7 +189,7 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
     for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
         found = have_cost(all, NULL, usual[i]);
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
-        const struct br_numbers *n = m->source->numbers;
+        const struct br_numbers *n = &m->source->numbers;
         if (named ? !m->costs : !n->costs)
             return br_fail(err, BR_BAD_INPUT,
                            named ? "%s%s: --cost: found no cost '%s'"
@@ -219,12 +219,12 @@ static enum br_status list_members(const struct br_work_source *source, size_t s
 {
     size_t most = 0;
     for (size_t s = 0; s < sources; s++)
-        most += source[s].numbers->quantities;
+        most += source[s].numbers.quantities;
     if (!(all->list = br_allocate(most + 1, sizeof *all->list)))
         return br_no_memory(err, "the programs");
     for (size_t s = 0; s < sources; s++)
-        for (size_t i = 0; i < source[s].numbers->quantities; i++) {
-            const char *of = case_of(&source[s].numbers->quantity[i]);
+        for (size_t i = 0; i < source[s].numbers.quantities; i++) {
+            const char *of = case_of(&source[s].numbers.quantity[i]);
             const struct member *m = all->list;
             while (m < all->list + all->count &&
                    (strcmp(m->source->name, source[s].name) || strcmp(m->of, of)))
@@ -246,7 +246,7 @@ static enum br_status refuse_errors(const struct members *all, struct br_error *
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
         size_t said = 0;
         br_append(text, sizeof text, "%s%s%s", m == all->list ? "" : "; ", m->source->name, m->of);
-        for (size_t i = 0; i < m->source->numbers->quantities; i++)
+        for (size_t i = 0; i < m->source->numbers.quantities; i++)
             if (has(m, i, name) && find_error(m, name, all->cost) == i)
                 br_append(text, sizeof text, "%s%s", said++ ? ", " : " measures ", name);
         if (!said)
@@ -266,7 +266,7 @@ static bool all_measure(struct members *all, const char *name, struct br_work_pr
     for (struct member *m = all->list; m < all->list + all->count; m++) {
         if ((m->error = find_error(m, name, all->cost)) == SIZE_MAX)
             return false;
-        const char *unit = m->source->numbers->quantity[m->error].unit;
+        const char *unit = m->source->numbers.quantity[m->error].unit;
         if (unit && w->unit && strcmp(unit, w->unit) != 0)
             br_fail(err, BR_BAD_INPUT, "%s: %s has the unit %s, and %s in another program",
                     m->source->path, name, unit, w->unit);
@@ -302,7 +302,7 @@ static enum br_axis line_of(const struct br_numbers *n)
 
 static void take_points(struct br_work_precision *w, const struct member *m)
 {
-    const struct br_numbers *n = m->source->numbers;
+    const struct br_numbers *n = &m->source->numbers;
     struct br_work_program *p = &w->program[w->programs];
     const enum br_axis axis = p->axis = line_of(n);
     snprintf(p->name, sizeof p->name, "%s%.99s", m->source->name, m->of);
@@ -446,7 +446,7 @@ static enum br_status study_program(struct br_work_precision *w, size_t program,
     p->needed = (struct br_estimate){NAN, NAN, NAN};
     p->wanted = NAN;
     if (p->points)
-        foresee(p, m->source->numbers, &at[p->points - 1], &order);
+        foresee(p, &m->source->numbers, &at[p->points - 1], &order);
     return BR_OK;
 }
 
@@ -465,7 +465,7 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
 {
     size_t rows = 0;
     for (size_t i = 0; i < all->count; i++)
-        rows += all->list[i].source->numbers->rows;
+        rows += all->list[i].source->numbers.rows;
     w->program = br_allocate(all->count, sizeof *w->program);
     w->point = br_allocate(rows + 1, sizeof *w->point);
     if (!w->program || !w->point)
@@ -502,7 +502,7 @@ static enum br_status find_all(struct members *all, struct br_work_precision *wo
     const struct member *first = all->list;
     char name[NAME];
     err->status = BR_OK;
-    for (size_t i = 0; i < first->source->numbers->quantities; i++)
+    for (size_t i = 0; i < first->source->numbers.quantities; i++)
         if (has(first, i, name) && all_measure(all, name, &works[*count], err) && !err->status &&
             fill(&works[(*count)++], all, err))
             return err->status;
@@ -514,12 +514,19 @@ enum br_status br_work_find(const struct br_work_source *source, size_t sources,
 {
     struct members all = {.cost = cost};
     *count = 0;
-    *works = br_allocate(source->numbers->quantities + 1, sizeof **works);
+    *works = br_allocate(source->numbers.quantities + 1, sizeof **works);
     bool failed = !*works && br_no_memory(err, "the programs");
     failed = failed || list_members(source, sources, &all, err) || choose_cost(&all, err) ||
              find_all(&all, *works, count, err);
     free(all.list);
     return failed ? err->status : BR_OK;
+}
+
+void br_work_sources_clear(struct br_work_source *source, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        br_numbers_clear(&source[i].numbers);
+    free(source);
 }
 
 void br_work_clear(struct br_work_precision *works, size_t count)

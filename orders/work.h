@@ -40,9 +40,10 @@ bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b);
 
 struct br_work_source {
     char name[300];
-    const char *path; /* for messages; borrowed, as the numbers */
-    const struct br_numbers *numbers;
+    const char *path; /* for messages; borrowed */
+    struct br_numbers numbers;
 };
+void br_work_sources_clear(struct br_work_source *source, size_t count); /* frees the list, too */
 
 /* Names sources by their paths: "fd" of "programs/fd.yaml", but the whole path where two would have
  * one name. */
