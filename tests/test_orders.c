@@ -106,9 +106,10 @@ TEST(test_resolutions)
     n = read_with("n,h,l2\n1,.3,3\n2,.15,2\n4,.075,1\n", &plain); /* to a constant factor */
     assert_string_equal(n.column[BR_AXIS_SPACE]->name, "h");
     br_numbers_clear(&n);
-    refuse_with("n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
-                "t.csv: the sizes are not clear: h = 1/n gives 0.79; h from column h gives 0.79: --column "
-                "n=n, or --column h=h, decides");
+    refuse_with(
+        "n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
+        "t.csv: the sizes are not clear: h = 1/n gives 0.79; h from column h gives 0.79: --column "
+        "n=n, or --column h=h, decides");
     n = read_with("n,l2\n1000,3\n1001,2\n1000000,1\n1000001,1\n", &plain); /* two are two */
     assert_true(n.row[0].z[0] > n.row[1].z[0] && n.row[2].z[0] > n.row[3].z[0]);
     br_numbers_clear(&n);
@@ -638,7 +639,9 @@ TEST(test_near_sizes)
 
 TEST(test_tied)
 {
-    find("h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
+    find("h,k,l2\n1,1,.3333333333333333\n.5,.25,.08333333333333333\n"
+         ".25,.0625,.02083333333333333\n.125,.015625,.005208333333333333\n",
+         NULL); /* by all their digits: rounded numbers leave other laws open */
     assert_true(found.orders.tied);
     assert_int_equal(found.orders.of[0].lines, 1);
     assert_int_equal(found.orders.of[0].line[0].axis, BR_AXIS_SPACE);
@@ -1095,7 +1098,7 @@ TEST(test_advice)
     } rows[] = {
         {"dt,e\n.1,.2\n.05,.05\n.025,.0125\n.0125,30\n.00625,1e8\n", NULL, "e: k 2 +- 0.1",
          "the errors fall, but from dt = 0.025 on they grow, to 1.00e+08: a scheme that is not"},
-        {"dt,e\n.1,1e9\n.05,3e4\n.025,.0125\n.0125,.0031\n.00625,.00078\n", NULL, "e: k 2 +- 0.1",
+        {"dt,e\n.1,1e9\n.05,3e4\n.025,.0125\n.0125,.0034\n.00625,.00078\n", NULL, "e: k 2 +- 0.1",
          "the coarse ones are beyond a limit of stability"},
         {"n,e\n8,.1\n16,.04\n32,.022\n64,.04\n128,.003\n", NULL, "e: h 2 +- 0.1",
          "the errors rise and fall: converge each run further"},
