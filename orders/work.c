@@ -141,42 +141,35 @@ static size_t find_error(const struct member *m, const char *name, const char *c
     return SIZE_MAX;
 }
 
-/* Takes the column of that name, or, where it is NULL, those of that kind. */
-static void find_cost(struct member *m, const char *name, enum br_cost kind)
+/* Takes the column of a name; else those of a kind, before which a time goes that does not say
+ * which. */
+static bool find_cost(struct member *m, const char *name, enum br_cost kind)
 {
+    enum { NONE, A_TIME, KIND, NAMED } fits, best = NONE;
     const struct br_numbers *n = &m->source->numbers;
     char text[NAME];
-    for (size_t i = 0; i < n->quantities + n->costs && !(name && m->costs); i++) {
+    m->costs = 0;
+    for (size_t i = 0; i < n->quantities + n->costs && best < NAMED; i++) {
         const char *unit = n->quantity[i].unit;
         double factor;
         if (!has(m, i, text))
             continue;
         const enum br_cost is = br_cost_of(text, unit, &factor);
-        if (name ? strcmp(text, name) == 0 : is == kind && is != BR_COSTS) {
-            m->costs++;
-            m->cost = i;
-            m->kind = is;
-            m->factor = factor;
-            m->unit = is < BR_COSTS ? br_costs[is].unit : unit ? unit : "";
-        }
+        fits = *name && strcmp(text, name) == 0                    ? NAMED
+               : is == BR_COSTS                                    ? NONE
+               : is == (kind == BR_COST_TIME ? BR_COST_CPU : kind) ? KIND
+               : is == BR_COST_TIME && kind <= BR_COST_TIME        ? A_TIME
+                                                                   : NONE;
+        if (fits == NONE || fits < best)
+            continue;
+        m->costs = fits > best ? 1 : m->costs + 1;
+        best = fits;
+        m->cost = i;
+        m->kind = is;
+        m->factor = factor;
+        m->unit = is < BR_COSTS ? br_costs[is].unit : unit ? unit : "";
     }
-}
-
-/* The column of a name; else those of a kind, before which a time goes that does not say which. */
-static bool have_cost(struct members *all, const char *name, enum br_cost kind)
-{
-    bool have = true;
-    for (struct member *m = all->list; m < all->list + all->count; m++) {
-        m->costs = 0;
-        if (name)
-            find_cost(m, name, BR_COSTS);
-        if (!m->costs)
-            find_cost(m, NULL, kind == BR_COST_TIME ? BR_COST_CPU : kind);
-        if (!m->costs && kind <= BR_COST_TIME)
-            find_cost(m, NULL, BR_COST_TIME);
-        have &= m->costs > 0;
-    }
-    return have;
+    return best > NONE;
 }
 
 static enum br_status choose_cost(struct members *all, struct br_error *err)
@@ -185,9 +178,13 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
                                          BR_COST_ITERATIONS, BR_COST_MEMORY};
     const bool named = *all->cost;
     double factor;
-    bool found = named && have_cost(all, all->cost, br_cost_of(all->cost, NULL, &factor));
-    for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
-        found = have_cost(all, NULL, usual[i]);
+    const enum br_cost kind = br_cost_of(all->cost, NULL, &factor);
+    bool found = false;
+    for (size_t i = 0; i < (named ? 1 : sizeof usual / sizeof *usual) && !found; i++) {
+        found = true;
+        for (struct member *m = all->list; m < all->list + all->count; m++)
+            found &= find_cost(m, all->cost, named ? kind : usual[i]);
+    }
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
         const struct br_numbers *n = &m->source->numbers;
         if (named ? !m->costs : !n->costs)
