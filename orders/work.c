@@ -65,11 +65,6 @@ size_t br_work_next(const struct br_work_point *p, size_t count, size_t last)
     return next;
 }
 
-bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b)
-{
-    return fabs(a->cost - b->cost) <= hypot(a->half, b->half);
-}
-
 /* ---- what a program has ---- */
 
 /* The name of a file without folders (out) and, but for endings like ".2", without its ending;

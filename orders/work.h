@@ -33,9 +33,6 @@ void br_work_front(struct br_work_point *point, size_t count);
  * end. */
 size_t br_work_next(const struct br_work_point *point, size_t count, size_t last);
 
-/* Whether the scatter of the clock may change which of two costs is less. */
-bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b);
-
 /* ---- of the numbers of programs ---- */
 
 struct br_work_source {

@@ -17,10 +17,10 @@ static void add_point(struct br_series *s, const struct br_work_point *p)
  * each program's own best. */
 static void add_work(struct br_figure *f, const struct br_work_precision *w)
 {
-    char text[MARKUP], label[96];
-    snprintf(label, sizeof label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
-             *w->cost_unit ? ", " : "", w->cost_unit);
-    struct br_panel *panel = br_panel_add(f, label, "");
+    char text[MARKUP];
+    struct br_panel *panel = br_panel_add(f, "", "");
+    BR_SAY(panel->x_label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
+           *w->cost_unit ? ", " : "", w->cost_unit);
     panel->log_x = panel->log_y = true;
     BR_SAY(panel->y_label, "error %.50s%s%.20s",
            br_quoted(text, MARKUP, &br_for_markup, w->quantity), w->unit ? ", " : "",

@@ -35,15 +35,16 @@ static const char *tie_text(const struct br_work_precision *w)
 /* The two cheapest programs to an error; `points`: there is none. */
 struct cheapest {
     size_t best, next;
-    bool tied;
+    bool tied; /* the scatter of the clock may change which one is less */
 };
 
 static struct cheapest find_cheapest(const struct br_work_precision *w, double target)
 {
     struct cheapest c = {.best = br_work_cheapest(w->point, w->points, target, SIZE_MAX, SIZE_MAX)};
-    const struct br_work_point *p = w->point;
-    c.next = br_work_cheapest(p, w->points, target, SIZE_MAX, p[c.best].program);
-    c.tied = c.next < w->points && br_work_ties(&p[c.best], &p[c.next]);
+    const struct br_work_point *a = &w->point[c.best];
+    c.next = br_work_cheapest(w->point, w->points, target, SIZE_MAX, a->program);
+    const struct br_work_point *b = &w->point[c.next];
+    c.tied = c.next < w->points && fabs(a->cost - b->cost) <= hypot(a->half, b->half);
     return c;
 }
 

@@ -365,11 +365,11 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
     char word[LONGEST], last[LONGEST] = "";
     bool part = false; /* "time per step" */
     enum br_cost found = BR_COSTS;
-    for (enum br_cost i = 0; i < BR_COSTS && found == BR_COSTS; i++)
-        for (const char *at = name; next_word(&at, word);)
-            found = lists(br_costs[i].words, word) ? i : found;
-    for (const char *at = name; next_word(&at, word); strcpy(last, word))
+    for (const char *at = name; next_word(&at, word); strcpy(last, word)) {
         part |= lists(" per ", word);
+        for (enum br_cost i = 0; i < found; i++)
+            found = lists(br_costs[i].words, word) ? i : found;
+    }
     if (unit)
         plain(unit, last);
     *factor = found == BR_COST_MEMORY ? 1e-6 : 1;
