@@ -297,6 +297,7 @@ static void take_points(struct br_work_precision *w, const struct member *m)
     const struct br_numbers *n = &m->source->numbers;
     struct br_work_program *p = &w->program[w->programs];
     const enum br_axis axis = p->axis = line_of(n);
+    p->point = w->point + w->points;
     snprintf(p->name, sizeof p->name, "%s%.99s", m->source->name, m->of);
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
         if (row->absent && row->absent[m->error])
@@ -329,27 +330,27 @@ static double exponent(const struct br_work_point *p)
     return log(p[1].cost / p[0].cost) / log(p[0].z / p[1].z);
 }
 
-/* Coarse sizes whose cost hardly grows: a run there is mostly its start. *start (out): that. */
-static void find_starts(struct br_work_point *p, size_t count, double *start)
+/* Coarse sizes whose cost hardly grows: a run there is mostly its start. */
+static void find_starts(struct br_work_program *program)
 {
     static const double hardly = 0.5;
+    struct br_work_point *p = program->point;
     double most = 0;
-    for (size_t i = 0; i + 1 < count; i++)
+    for (size_t i = 0; i + 1 < program->points; i++)
         most = fmax(most, exponent(&p[i]));
-    for (size_t i = 0; i + 1 < count && exponent(&p[i]) < fmin(hardly, most / 2); i++)
+    for (size_t i = 0; i + 1 < program->points && exponent(&p[i]) < fmin(hardly, most / 2); i++)
         p[i].is_start = true;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < program->points; i++)
         if (p[i].is_start)
-            *start = *start > 0 ? fmin(*start, p[i].cost) : p[i].cost;
+            program->start = program->start > 0 ? fmin(program->start, p[i].cost) : p[i].cost;
 }
 
 static enum br_status check_growth(const struct br_work_precision *w, const struct member *m,
-                                   const struct br_work_point *p, size_t count,
-                                   struct br_error *err)
+                                   const struct br_work_program *program, struct br_error *err)
 {
     static const double clearly = 0.9;
-    const struct br_work_point *last = p + count - 1;
-    if (!count || !(last->cost + last->half < clearly * (p->cost - p->half)))
+    const struct br_work_point *p = program->point, *last = p + program->points - 1;
+    if (!program->points || !(last->cost + last->half < clearly * (p->cost - p->half)))
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
                    "%s: %s falls from %.3g at %s to %.3g%s%s at %s, expected a cost that grows "
@@ -370,10 +371,10 @@ static int by_size(const void *a, const void *b)
 
 /* The order along the points of a program. Costs are without its start, and without the sizes that
  * are mostly that; over costs, of the points of its own front. */
-static enum br_status find_order(const struct br_work_program *program,
-                                 const struct br_work_point *p, enum line what,
+static enum br_status find_order(const struct br_work_program *program, enum line what,
                                  struct br_estimate *order, struct br_error *err)
 {
+    const struct br_work_point *p = program->point;
     const size_t count = program->points;
     struct br_order_point *at = br_allocate(count + 1, sizeof *at);
     struct br_line_order found;
@@ -400,9 +401,10 @@ static enum br_status find_order(const struct br_work_program *program,
 
 /* What the wanted error costs, if the order of the error and the growth of the cost stay. */
 static void foresee(struct br_work_program *p, const struct br_numbers *n,
-                    const struct br_work_point *finest, const struct br_estimate *order)
+                    const struct br_estimate *order)
 {
     static const double most = 100; /* times finer: nobody knows more */
+    const struct br_work_point *finest = &p->point[p->points - 1];
     const double next = pow(10, ceil(log10(finest->error)) - 1);
     p->wanted = finest->error > 1e-6 ? 1e-6 : next;
     if (!(pow(finest->error / p->wanted, 1 / order->value) <= most))
@@ -419,26 +421,21 @@ static void foresee(struct br_work_program *p, const struct br_numbers *n,
     snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
 }
 
-static enum br_status study_program(struct br_work_precision *w, size_t program,
-                                    const struct member *m, struct br_error *err)
+static enum br_status study_program(struct br_work_program *p, const struct br_numbers *n,
+                                    struct br_error *err)
 {
-    struct br_work_program *p = &w->program[program];
-    struct br_work_point *at = w->point;
     struct br_estimate order, over;
-    while (at < w->point + w->points && at->program != program)
-        at++;
-    if (find_order(p, at, COST_OVER_SIZE, &p->growth, err) ||
-        find_order(p, at, ERROR_OVER_SIZE, &order, err) ||
-        find_order(p, at, ERROR_OVER_COST, &over, err))
+    if (find_order(p, COST_OVER_SIZE, &p->growth, err) ||
+        find_order(p, ERROR_OVER_SIZE, &order, err) || find_order(p, ERROR_OVER_COST, &over, err))
         return err->status;
     p->tenth = (struct br_estimate){pow(10, 1 / over.value), pow(10, 1 / over.high),
                                     pow(10, 1 / over.low)};
-    for (size_t i = 0; i < p->points && at[i].is_start; i++)
-        strcpy(p->starts, at[i].label);
+    for (size_t i = 0; i < p->points && p->point[i].is_start; i++)
+        strcpy(p->starts, p->point[i].label);
     p->needed = (struct br_estimate){NAN, NAN, NAN};
     p->wanted = NAN;
     if (p->points)
-        foresee(p, &m->source->numbers, &at[p->points - 1], &order);
+        foresee(p, n, &order);
     return BR_OK;
 }
 
@@ -466,15 +463,14 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
     w->cost_unit = all->list->unit;
     w->is_time = all->list->kind <= BR_COST_TIME;
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
-        struct br_work_point *first = w->point + w->points;
+        struct br_work_program *p = &w->program[w->programs];
         take_points(w, m);
-        const size_t count = w->points - (size_t)(first - w->point);
-        if (w->program[w->programs - 1].axis == BR_AXES)
+        if (p->axis == BR_AXES)
             continue;
-        if (check_growth(w, m, first, count, err))
+        if (check_growth(w, m, p, err))
             return err->status;
         if (w->is_time)
-            find_starts(first, count, &w->program[w->programs - 1].start);
+            find_starts(p);
     }
     if (!w->points)
         return br_fail(err, BR_NOT_FINITE,
@@ -482,7 +478,7 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
                        w->program->failure);
     br_work_front(w->point, w->points);
     for (size_t i = 0; i < w->programs; i++)
-        if (study_program(w, i, &all->list[i], err))
+        if (study_program(&w->program[i], &all->list[i].source->numbers, err))
             return err->status;
     return BR_OK;
 }

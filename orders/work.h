@@ -48,18 +48,19 @@ void br_work_name_sources(struct br_work_source *source, size_t count);
 
 /* Numbers may be NaN: not known. */
 struct br_work_program {
-    char name[400];            /* "fd", "table [method = P1]" */
-    enum br_axis axis;         /* along which it is refined alone; BR_AXES: there is none */
-    struct br_estimate growth; /* the cost grows as the size to the power -growth */
-    struct br_estimate tenth;  /* a tenth of the error costs so many times as much */
-    double wanted;             /* 1e-6, or the next power of ten that it does not reach */
-    struct br_estimate needed; /* what that costs, if both orders stay, */
-    char at[64];               /* and its size, "n = 1024" */
-    double start;              /* of the program, part of each of its costs */
-    char starts[BR_CELL_NAME]; /* up to this size the cost is mostly the start; "": nowhere */
-    size_t points, failed;     /* runs with error and cost; without */
-    char first[BR_CELL_NAME];  /* the first that failed, */
-    const char *failure;       /* and why; borrowed */
+    char name[400];              /* "fd", "table [method = P1]" */
+    enum br_axis axis;           /* along which it is refined alone; BR_AXES: there is none */
+    struct br_estimate growth;   /* the cost grows as the size to the power -growth */
+    struct br_estimate tenth;    /* a tenth of the error costs so many times as much */
+    double wanted;               /* 1e-6, or the next power of ten that it does not reach */
+    struct br_estimate needed;   /* what that costs, if both orders stay, */
+    char at[64];                 /* and its size, "n = 1024" */
+    double start;                /* of the program, part of each of its costs */
+    char starts[BR_CELL_NAME];   /* up to this size the cost is mostly the start; "": nowhere */
+    struct br_work_point *point; /* from coarse to fine; borrowed */
+    size_t points, failed;       /* runs with error and cost; without */
+    char first[BR_CELL_NAME];    /* the first that failed, */
+    const char *failure;         /* and why; borrowed */
 };
 
 /* One quantity of all programs. */

@@ -35,13 +35,12 @@ static void add_work(struct br_figure *f, const struct br_work_precision *w)
             add_point(others, &w->point[i]);
     }
     br_series_stairs(front);
-    for (size_t program = 0; program < w->programs; program++) {
+    for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
         struct br_series *s =
-            br_series_add(f, BR_PEN_CURVE, "%s",
-                          br_quoted(text, MARKUP, &br_for_markup, w->program[program].name));
-        for (size_t i = 0; i < w->points; i++)
-            if (w->point[i].program == program && w->point[i].own)
-                add_point(s, &w->point[i]);
+            br_series_add(f, BR_PEN_CURVE, "%s", br_quoted(text, MARKUP, &br_for_markup, p->name));
+        for (size_t i = 0; i < p->points; i++)
+            if (p->point[i].own)
+                add_point(s, &p->point[i]);
         br_series_stairs(s);
     }
 }
