@@ -112,6 +112,7 @@ static enum br_status begin_case(const struct br_orders *o, size_t quantity, enu
         .order = {NAN, NAN, NAN},
         .may_miss = !o->numbers->all_needed,
         .window = q->window,
+        .of_degree = o->numbers->column[axis]->is_degree,
     };
     c->point = br_allocate(points + 1, sizeof *c->point);
     return c->point ? BR_OK : br_no_memory(err, "the orders");
