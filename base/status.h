@@ -43,8 +43,8 @@ enum br_status br_status_of_errno(int reason);
 int br_status_exit_code(enum br_status status);
 
 /* calloc with a test hook: br_allocation_fails_at(i) makes the i-th allocation
- * from now on (0 = the next one) fail once; a negative i switches it off. Returns how many would have
- * come before the failure that it replaces; negative: it has happened. */
+ * from now on (0 = the next one) fail once; a negative i switches it off. Returns how many would
+ * have come before the failure that it replaces; negative: it has happened. */
 void *br_allocate(size_t count, size_t size);
 
 /* Like br_allocate, but aligned to a cache line. */
@@ -59,7 +59,7 @@ bool br_grow(void *array, size_t count, size_t *room, size_t size);
 
 struct br_store {
     struct br_store_block *last; /* each block points to the one before it */
-    bool failed;           /* there was no memory for a piece */
+    bool failed;                 /* there was no memory for a piece */
 };
 
 /* count zeroed things of a size in bytes, at the start of a cache line. NULL if memory is exhausted

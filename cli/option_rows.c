@@ -81,8 +81,8 @@ static const struct br_option rows[] = {
      BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
      .more = "For the uncertainty of limits, 1 to 10. If it is not given, 2 is assumed; the answer "
              "states this, and the result for 1."},
-    {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1; h1 >= 0.9', or '2'",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
+    {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1; h1 >= 0.9', or '2'", NULL,
+     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
      "600", BR_TAKES_SECONDS, BETWEEN(0, 1e10), .commands = BR_FOR_ORDERS},

@@ -38,7 +38,7 @@ bool br_is_trade_source(const char *word)
     char *text = NULL;
     const char *dot = strrchr(word, '.'), *slash = strrchr(word, '/');
     if (!is_yaml(word))
-        return strcmp(word, "-") == 0 || (dot && dot[1] && (!slash || dot > slash));
+        return (strcmp(word, "-") == 0 && !br_program.beam) || (dot && dot[1] && (!slash || dot > slash));
     const bool is =
         !br_text_load(word, BR_LONGEST_STUDY, "study file", &text, &err) && br_is_study_file(text);
     free(text);

@@ -98,3 +98,16 @@ const char *br_range_text(double order, double highest, char *buffer, size_t siz
     snprintf(buffer, size, highest > order ? "%g to %g" : "%g", order, highest);
     return buffer;
 }
+
+/* Abramowitz and Stegun 1964, 26.7.3 and 26.7.4. */
+double br_student_below(double t, double freedom)
+{
+    const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
+    const bool odd = (int)freedom % 2 == 1;
+    double term = odd ? sqrt(square) : 1, sum = 0;
+    for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
+        sum += term;
+        term *= square * (k - 1) / k;
+    }
+    return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
+}

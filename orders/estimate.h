@@ -30,6 +30,9 @@ const char *br_interval_text(const struct br_estimate *e, char *buffer, size_t s
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
 
+/* Student's distribution of whole freedom: the probability of less than t. */
+double br_student_below(double t, double freedom);
+
 /* Akaike's criterion, with Hurvich and Tsai's correction for few points, of `count` residuals; sum:
  * of their squares. Infinite where there are too few. */
 double br_akaike(double sum, size_t count, size_t unknowns);

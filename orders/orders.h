@@ -75,7 +75,7 @@ struct br_numbers {
     const struct br_resolution_column *listed[BR_AXES]; /* of runs: that of their list */
     char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
     struct br_quantity *quantity;                       /* owned */
-    size_t quantities, costs; /* the columns of costs stand behind the others */
+    size_t quantities, costs;   /* the columns of costs stand behind the others */
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
     bool powers; /* the errors of each axis are known to be one power, without scatter and, but for
@@ -203,8 +203,8 @@ enum br_status br_orders_add_differences(const struct br_orders *orders,
                                          struct br_quantity_orders *of, enum br_axis axis,
                                          struct br_error *err);
 
-/* br_case_observe of a line over sizes of this column. Errors over degrees that are few, or have few
- * digits, may fit powers of 1/(degree + 1) as well as exponential convergence. */
+/* br_case_observe of a line over sizes of this column. Errors over degrees that are few, or have
+ * few digits, may fit powers of 1/(degree + 1) as well as exponential convergence. */
 enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
                                  struct br_case *c, struct br_error *err);
 

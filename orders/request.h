@@ -65,8 +65,8 @@ struct br_orders_request {
     struct br_program_axis axis[BR_AXES];
     const struct br_reading *reading; /* readings */
     size_t readings;
-    double seconds; /* limit of one run */
-    double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
+    double seconds;   /* limit of one run */
+    double repeat;    /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     const char *cost; /* of a trade: columns of costs are read, this one too, and runs are repeated
                          until the median of their times is known; "": the usual ones; NULL: not */
     /* borrowed; a study file does not set them */

@@ -163,7 +163,8 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
 /* ---- work.c: errors over costs of several programs ---- */
 
 /* A panel for each of the works, which are quantities: each program's own stairs, and the front. */
-struct br_figure br_work_draw(const struct br_work_precision *works, size_t count, const char *caption);
+struct br_figure br_work_draw(const struct br_work_precision *works, size_t count,
+                              const char *caption);
 
 /* ---- check.c: observed orders beside what is expected ---- */
 

@@ -281,8 +281,8 @@ void br_hide(struct br_document *d, const char *key, const char *unit, struct br
 /* Whether values become nothing from now on, until the end of the row. */
 void br_put_blank(struct br_document *d, bool blank);
 
-/* Ends a table of few rows and many columns: people see a line for each column, and the rows side by
- * side under their first values. A table with less columns a row stays as it is. */
+/* Ends a table of few rows and many columns: people see a line for each column, and the rows side
+ * by side under their first values. A table with less columns a row stays as it is. */
 enum { BR_ACROSS = 5 /* columns a row */ };
 void br_put_across(struct br_document *d);
 

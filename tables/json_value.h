@@ -11,9 +11,9 @@
  * is made, and before one is put in place. */
 bool br_json_lacked_memory(void);
 
-/* The document in a text, or NULL, with the reason. After a failed allocation jansson's parser loses
- * characters, and frees what it must not. So the program ends there, with a message and exit code 3;
- * results that were not yet in place stay whole for the next command. */
+/* The document in a text, or NULL, with the reason. After a failed allocation jansson's parser
+ * loses characters, and frees what it must not. So the program ends there, with a message and exit
+ * code 3; results that were not yet in place stay whole for the next command. */
 json_t *br_json_parse(const char *text, json_error_t *why);
 
 /* A new reference; without memory NULL. NULL is null; bytes that are not UTF-8 become \xff. */

@@ -112,7 +112,7 @@ done
 END
     # KEYS|the line after TAB, or a part of the list that is shown
     while IFS='|' read -r keys expected; do
-        echo "$keys" | timeout 60 zsh -f pressed.zsh 2>&1 | grep -qF -- "$expected" && continue
+        echo "$keys" | timeout 600 zsh -f pressed.zsh 2>&1 | grep -qF -- "$expected" && continue
         echo "zsh: $keys: expected '$expected'"
         failures=$((failures + 1))
     done <<'END'

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Linked into a program, this makes one of its calls fail or last long, or ends the program
- * there: BR_FAULT="KIND N WHAT", or br_memory_fails_at. KIND memory: malloc and the like, also in libraries; disk: calls
- * that change a folder, fsync, and opening the program's own files. N: the number of the call since
- * main, from 1 on; 0: every call. WHAT: fail (ENOMEM, EIO), from (all later calls fail, too), kill,
- * stop (SIGTERM), slow. The file $BR_FAULT_LOG is made when the call is reached. */
+ * there: BR_FAULT="KIND N WHAT", or br_memory_fails_at. KIND memory: malloc and the like, also in
+ * libraries; disk: calls that change a folder, fsync, and opening the program's own files. N: the
+ * number of the call since main, from 1 on; 0: every call. WHAT: fail (ENOMEM, EIO), from (all
+ * later calls fail, too), kill, stop (SIGTERM), pause (SIGSTOP), slow. The file $BR_FAULT_LOG is
+ * made when the call is reached. */
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
@@ -49,9 +50,11 @@ static bool fails(const char *of)
         syscall(SYS_kill, getpid(), SIGKILL);
     if (strcmp(what, "stop") == 0)
         syscall(SYS_kill, getpid(), SIGTERM);
+    if (strcmp(what, "pause") == 0)
+        syscall(SYS_kill, getpid(), SIGSTOP);
     if (strcmp(what, "slow") == 0)
         syscall(SYS_nanosleep, &(struct timespec){.tv_nsec = 20000000}, NULL);
-    return strcmp(what, "slow") != 0 && strcmp(what, "stop") != 0;
+    return strcmp(what, "fail") == 0 || strcmp(what, "from") == 0;
 }
 
 /* ---- memory ---- */

@@ -18,7 +18,7 @@ plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the fig
 plots/beam/paper.c (figure|f)->title          # captions of the paper
 tables/document_*.c t->column\[c\]\.key       # a column's
 tables/document_latex.c b->what\.key          # a picture's file: br_is_name
-tables/beam/scene_template.c (key|br_norms\[0\])->(name|unit) # of the rows of schema.c
+tables/beam/scene_template.c (key|br_norms\[0\])->(name|unit)|br_friction_models\[law\]\.name # of rows of ours
 END
 )
 

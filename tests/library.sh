@@ -204,7 +204,7 @@ if child == 0:
     os._exit(0 if (again.order, again.check(second).passed) == (orders.order, check.passed) else 1)
 assert os.waitpid(child, 0)[1] == 0
 END
-    timeout 120 "$python" refused.py 2>noise && cat noise && [ ! -s noise ]
+    timeout 600 "$python" refused.py 2>noise && cat noise && [ ! -s noise ]
 }
 # The page's loop over the program, by any Python.
 loop() {

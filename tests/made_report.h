@@ -23,8 +23,8 @@ struct br_made_report {
 /* Fills a report in place; to be cleared. with_exact: a study by a fine run with the exact
  * one beside it, else by the exact solution alone. Of the fitted study's cells, by rows of
  * 4, number 1 is flagged by the reference, 6 by round-off, and 11 failed, in all parts; 2 by
- * the reference, 7 as unstable and 9 as stalled in the total alone. Of the study that is not fitted number 4 is flagged by the reference,
- * and 11 failed. Nothing is printed of cells 3 and 8. */
+ * the reference, 7 as unstable and 9 as stalled in the total alone. Of the study that is not fitted
+ * number 4 is flagged by the reference, and 11 failed. Nothing is printed of cells 3 and 8. */
 void br_made_report(struct br_made_report *made, bool with_exact);
 void br_made_report_clear(struct br_made_report *made);
 

@@ -28,6 +28,7 @@ ends() {
     got=$?
     [ $got = "$code" ] || fails "beamrate-orders $*: exit code $got, expected $code: $(cat out err)"
     [ "${BEAMRATE-}" ] || return 0
+    rm -rf trade # results: not those of an earlier run
     "$BEAMRATE" "$@" >out_beam 2>err_beam
     got=$?
     for file in out out_beam err err_beam; do # without its time, and the program's own name

@@ -51,7 +51,7 @@ static bool is_taken(struct br_cache *cache)
                                               .reading = &reading,
                                               .readings = 1,
                                               .jobs = 1,
-                                              .seconds = 10,
+                                              .seconds = 600,
                                               .cache = cache->folder,
                                               .anew = !cache->take};
     MUST(br_program_run(&request, &numbers, &err));
@@ -110,6 +110,32 @@ static size_t spoil(char *bytes, size_t size, int how, struct br_test_random *ra
     if (how == 3)
         memcpy(bytes + at, &special[br_test_index(random, 4)], sizeof(double));
     return how != 2 ? size : br_test_index(random, 2) ? size + 8 : br_test_index(random, size);
+}
+
+/* FIPS 180-2, B.1 and B.2. */
+TEST(test_sums)
+{
+    char sum[BR_SHA256_TEXT];
+    br_sha256_of("abc", 3, sum);
+    assert_string_equal(sum, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    br_sha256_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq", 56, sum);
+    assert_string_equal(sum, "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+static void is_asked(struct br_record *record, void *self)
+{
+    (void)record;
+    *(bool *)self = true;
+}
+
+TEST(test_without_a_folder)
+{
+    const struct br_cache none = {.take = true};
+    bool asked = false;
+    assert_true(br_cache_put(&none, "run", is_asked, &asked));
+    assert_true(br_cache_put(NULL, "run", is_asked, &asked));
+    assert_false(br_cache_take(&none, "run", is_asked, &asked));
+    assert_false(asked);
 }
 
 /* Whatever the bytes behind a right sum are: no crash, and of random ones nothing is taken. More

@@ -88,7 +88,8 @@ TEST(test_refusals)
         grid[0].n_count = bad[i].n_count, grid[0].n = bad[i].n;
         grid[0].k_count = bad[i].k_count, grid[0].steps = bad[i].steps;
         struct br_study out[NORMS];
-        REFUSED(br_differences_run(grid, bad[i].axis, out, 1, NULL, &err), BR_BAD_INPUT, bad[i].message);
+        REFUSED(br_differences_run(grid, bad[i].axis, out, 1, NULL, &err), BR_BAD_INPUT,
+                bad[i].message);
     }
     br_scene_clear(&scene);
 }

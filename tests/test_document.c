@@ -543,8 +543,8 @@ static enum br_status print_without(const struct br_document_format *format, con
     br_allocation_fails_at(jansson ? -1 : fails);
     build(&d);
     const struct br_document_table *table = br_document_next_table(&d, &block);
-    const enum br_status status =
-        format ? br_document_print(out, format, &d, table, &err) : br_document_show(out, &d, 1, &err);
+    const enum br_status status = format ? br_document_print(out, format, &d, table, &err)
+                                         : br_document_show(out, &d, 1, &err);
     br_allocation_fails_at(-1);
     assert_int_equal(fclose(out), 0);
     if (status)

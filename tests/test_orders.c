@@ -663,7 +663,9 @@ TEST(test_near_sizes)
 
 TEST(test_tied)
 {
-    find("h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
+    find("h,k,l2\n1,1,.3333333333333333\n.5,.25,.08333333333333333\n"
+         ".25,.0625,.02083333333333333\n.125,.015625,.005208333333333333\n",
+         NULL); /* by all their digits: rounded numbers leave other laws open */
     assert_true(found.orders.tied);
     assert_int_equal(found.orders.of[0].lines, 1);
     assert_int_equal(found.orders.of[0].line[0].axis, BR_AXIS_SPACE);
@@ -1120,7 +1122,7 @@ TEST(test_advice)
     } rows[] = {
         {"dt,e\n.1,.2\n.05,.05\n.025,.0125\n.0125,30\n.00625,1e8\n", NULL, "e: k 2 +- 0.1",
          "the errors fall, but from dt = 0.025 on they grow, to 1.00e+08: a scheme that is not"},
-        {"dt,e\n.1,1e9\n.05,3e4\n.025,.0125\n.0125,.0031\n.00625,.00078\n", NULL, "e: k 2 +- 0.1",
+        {"dt,e\n.1,1e9\n.05,3e4\n.025,.0125\n.0125,.0034\n.00625,.00078\n", NULL, "e: k 2 +- 0.1",
          "the coarse ones are beyond a limit of stability"},
         {"n,e\n8,.1\n16,.04\n32,.022\n64,.04\n128,.003\n", NULL, "e: h 2 +- 0.1",
          "the errors rise and fall: converge each run further"},

@@ -2,10 +2,10 @@
 /* Tests the checks themselves: the program is built with one planted bug after the other, and a
  * command that passes without the bug must end with exit code 1. A check of one scene is a part of
  * `beamrate check --all`, and cheaper. If no command can detect a bug, as one in a reference, a
- * test program must: it is built with the bug, and must fail. By default only a sample is planted: the
- * first bug of each command or test program that must detect it, of each folder, and of each kind.
- * usage: test_planted [SHARD SHARDS | NAME]: one of several shares, which can run side by side, or one
- * bug. */
+ * test program must: it is built with the bug, and must fail. By default only a sample is planted:
+ * the first bug of each command or test program that must detect it, of each folder, and of each
+ * kind. usage: test_planted [SHARD SHARDS | NAME]: one of several shares, which can run side by
+ * side, or one bug; without words, only whether each can be planted. */
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -42,7 +42,8 @@ static char *read_all(FILE *in)
     return text;
 }
 
-/* Runs a command; returns its exit code, its output goes to the log in the folder. */
+/* Runs a command; returns its exit code, or 128 and its signal; its output goes to the log in the
+ * folder. */
 __attribute__((format(printf, 1, 2))) static int run(const char *format, ...)
 {
     char *command = NULL;
@@ -52,7 +53,7 @@ __attribute__((format(printf, 1, 2))) static int run(const char *format, ...)
     va_end(args);
     const int status = system(command);
     free(command);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 /* A copy of the first of the build's commands that contains a word, beginning at `from`. */
@@ -167,11 +168,12 @@ static void build(const struct planted_bug *bug)
     free(link);
 }
 
-/* The exit code of a command of a program; for one that takes too long, that of `timeout`. */
+/* The exit code of a command of a program; 128 and more for one that takes too much processor time.
+ */
 static int run_beamrate(const char *program, const char *command)
 {
     const bool takes_threads = strncmp(command, "run ", 4) != 0;
-    return run("BEAMRATE_DATA='%s' timeout 120 '%s' %s --quiet%s >%s/log 2>&1",
+    return run("ulimit -t 120; BEAMRATE_DATA='%s' '%s' %s --quiet%s >%s/log 2>&1",
                environment("BEAMRATE_SOURCE"), program, command,
                takes_threads ? " --threads 1" : "", folder);
 }
@@ -207,8 +209,8 @@ static void a_command_sees(const struct planted_bug *bug)
  */
 static void a_test_sees(const struct planted_bug *bug)
 {
-    const int code = run("ulimit -c 0; env -u BR_TEST_LONG CMOCKA_TEST_ABORT=1 "
-                         "CMOCKA_MESSAGE_OUTPUT=stdout timeout 120 %s/planted >%s/log 2>&1",
+    const int code = run("ulimit -c 0; ulimit -t 120; env -u BR_TEST_LONG CMOCKA_TEST_ABORT=1 "
+                         "CMOCKA_MESSAGE_OUTPUT=stdout %s/planted >%s/log 2>&1",
                          folder, folder);
     if (code != 128 + SIGABRT || run("grep -q 'error: Failure!' %s/log", folder) != 0)
         fail_msg("%s: %s: exit code %d, expected one of its tests to fail", bug->name, bug->command,
@@ -219,7 +221,7 @@ static void a_test_sees(const struct planted_bug *bug)
 static void golden_outputs_see(const struct planted_bug *bug)
 {
     const char *source = environment("BEAMRATE_SOURCE");
-    const int code = run("BEAMRATE_DATA='%s' BEAMRATE=%s/planted timeout 120 "
+    const int code = run("ulimit -t 120; BEAMRATE_DATA='%s' BEAMRATE=%s/planted "
                          "'%s/tests/golden/run.sh' %s >%s/log 2>&1",
                          source, folder, source, golden_row(bug), folder);
     if (code != 1)
@@ -302,10 +304,10 @@ int main(int argc, char **argv)
 {
     const char *name = argc == 2 ? argv[1] : NULL;
     const size_t shard = argc == 3 ? strtoul(argv[1], NULL, 10) : 0;
-    const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 1;
+    const size_t shards = argc == 3 ? strtoul(argv[2], NULL, 10) : 0;
     static struct CMUnitTest tests[1 + PLANTED_BUGS] = {cmocka_unit_test(all_can_be_planted)};
-    size_t count = !name && shard == 0, chosen = 0;
-    for (size_t i = 0; i < PLANTED_BUGS; i++)
+    size_t count = argc == 1, chosen = 0;
+    for (size_t i = 0; i < PLANTED_BUGS && argc > 1; i++)
         if (name ? strcmp(planted_bugs[i].name, name) == 0
                  : (br_test_long() || is_in_sample(i)) && chosen++ % shards == shard)
             tests[count++] = (struct CMUnitTest){planted_bugs[i].name, bug_is_caught, NULL, NULL,

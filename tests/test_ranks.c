@@ -59,7 +59,7 @@ static void run_with(const char *deed, const char *folder, struct cli_outcome *o
              "done) & fi; exec '%s' %s %s",
              deed, getenv("PROGRAM"), hours, folder);
     const char *const word[] = {
-        "--oversubscribe", "--timeout", "90", "-n", "4", "sh", "-c", script, NULL};
+        "--oversubscribe", "--timeout", "900", "-n", "4", "sh", "-c", script, NULL};
     cli_run(word, &(struct cli_circumstances){.errors = "errors"}, outcome);
     snprintf(script, sizeof script, "%s/example2.csv", folder);
     assert_false(cli_is_there(script));
@@ -266,8 +266,11 @@ static void test_killed(void **state)
 static void test_silent(void **state)
 {
     (void)state;
-    setenv("BEAMRATE_SILENCE", "1.5", 1);
-    run_with("kill -STOP $$", "silent", &out);
+    static const char *const seconds[] = {"1.5", "15", "150"}; /* a loaded machine wants more */
+    for (int i = 0; i < 3 && (i == 0 || !strstr(cli_read("errors"), "rank 2 has not")); i++) {
+        setenv("BEAMRATE_SILENCE", seconds[i], 1);
+        run_with("kill -STOP $$", "silent", &out);
+    }
     unsetenv("BEAMRATE_SILENCE");
     if (!strstr(cli_read("errors"), "libopen-rte")) /* mpirun itself may crash when all ends so */
         expect_exit(&out, 3);

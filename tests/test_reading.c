@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/words.h"
-#include "orders/reading/reading.h"
 #include "checks.h"
+#include "orders/reading/reading.h"
 
 /* A table and what it must give: the heading and each row in a line, with a bar behind each field;
  * then the lines that are left, "2 title". Or with a colon first, the refusal. */
@@ -53,6 +53,9 @@ static const struct {
     {" & \\multicolumn{2}{c}{P1} & \\multicolumn{2}{c}{P2} \\\\\n$N$ & e & EOC & e & EOC \\\\\n"
      "10 & 1 & -- & 2 & -- \\\\\n20 & .25 & 2 & .5 & 2 \\\\\n",
      "$N$|P1 e|P1 EOC|P2 e|P2 EOC|\n10|1|--|2|--|\n20|.25|2|.5|2|\n"},
+    {" & \\multicolumn{2}c{P1} & \\multicolumn{2}{c}{P2} \\\\\n$N$ & e & EOC & f & EOC \\\\\n"
+     "10 & 1 & -- & 2 & -- \\\\\n20 & .25 & 2 & .5 & 2 \\\\\n",
+     "$N$|e|EOC|f|EOC|\n10|1|--|2|--|\n20|.25|2|.5|2|\n1 title\n"},
     {"ref | ||e|| | rate\n0 | 4 | -\n1 | 1 | 2\n", "ref|||e|||rate|\n0|4|-|\n1|1|2|\n"},
     {"|**N**|`e`|\n|8|**1**|\n|16||\n", "N|e|\n8|**1**|\n16||\n"},
     {"  n    e rate\n1  8  .1   NA\n2 16 .02  2.3\n", "~|n|e|rate|\n1|8|.1|NA|\n2|16|.02|2.3|\n"},
@@ -113,6 +116,8 @@ static const struct {
      "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 summary\n"},
     {"N e EOC\n8 1 -\n16 .2 2.0\nOverall EOC is 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 footer\n"},
     {"n,e\n10,1\n20,.2\nmean,3e-3\nstd,1\n", "n|e|\n10|1|\n20|.2|\n4 summary\n5 summary\n"},
+    {"n,e\n10,1\n20,.2\nmean,15,.6\n", "n|e|\n10|1|\n20|.2|\n4 footer\n"},
+    {"n,e\n10,1\n20,.2\nmean,15,.6\nmax,20,1\n", ":t:5: found 'max,20,1' between or beside"},
     {"n,e\n10,1\nmean,.2\n20,3e-3\n", "n|e|\n10|1|\nmean|.2|\n20|3e-3|\n"}, /* not the last */
     {"n e\n10 1 # a\n20 .2\n40 .1 # b", "n|e|\n10|1|\n20|.2|\n40|.1|\n2 comment\n4 comment\n"},
     {"n = 8 e = 1 #a\nn = 16 e = .2\n", "n|e|\n8|1|\n16|.2|\n1 comment\n"},
@@ -177,6 +182,7 @@ static const struct {
     {"{\"a\":[1,2],\"b\":[1]}", ":t: found 2 values, but 1 of b"},
     {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
+    {"{\"h\":1}\n{\"h\":.5}\n", ":t:2: found no valid JSON"},
 };
 
 static void add_rows(char *text, size_t size, const struct br_fields *f)

@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "plots/pictures.h"
 #include "checks.h"
+#include "plots/pictures.h"
 
 static void make_folder(char folder[64])
 {
@@ -63,8 +63,7 @@ TEST(test_side_by_side)
                                 "set terminal svg\nset output stem.'.svg'\nplot x\n"
                                 "set terminal pngcairo\nset output stem.'.png'\nplot x\n"
                                 "unset output\n");
-        const enum br_status status =
-            br_gnuplot_start(&at_work[i], folder, script, &missing, &err);
+        const enum br_status status = br_gnuplot_start(&at_work[i], folder, script, &missing, &err);
         if (!missing)
             MUST(status);
     }

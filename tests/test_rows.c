@@ -95,7 +95,7 @@ static void run_command(char *row)
         out.exit_code = run_shell(row + 2);
     else
         cli_run_line(row, &circumstances, &out);
-    circumstances = (struct cli_circumstances){0}; /* also before a failure */
+    circumstances = (struct cli_circumstances){0};
     if (out.exit_code != expected)
         fail_msg("exit code %d, expected %ld; it said:\n%s", out.exit_code, expected, out.output);
     check_text("the output", out.output, message, true);
@@ -176,6 +176,7 @@ static void run_row(char *row)
 static void test_rows(void **state)
 {
     const struct test *t = *state;
+    circumstances = (struct cli_circumstances){0}; /* a test that failed may have left some */
     for (size_t i = 0; i < t->rows; i++) {
         if (*t->row[i] == '#' || !*t->row[i])
             continue;

@@ -17,6 +17,7 @@ static const size_t grid_n[] = {10, 20, 30, 40, 60}, grid_steps[] = {20, 50, 100
  * what is found, or how); a value; another one. The compiler refuses a member that has no row. */
 #pragma GCC diagnostic error "-Wmissing-field-initializers"
 #define FIRST(in, member, a, b) a,
+/* clang-format off */
 #define ITERATION(X) \
     X(SAID, parameter, 0.5, 0.25) X(SAID, tolerance, 1e-8, 2e-8) X(SAID, most, 10, 11)
 #define METHOD(X)                                                 \
@@ -73,6 +74,7 @@ static const size_t grid_n[] = {10, 20, 30, 40, 60}, grid_steps[] = {20, 50, 100
     X(NONE, reference_report, unchecked, ) X(NONE, events, NULL, NULL) \
     X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
     X(NONE, reference_error, {0}, ) X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
+/* clang-format on */
 
 static char *text_of(const struct br_study *s)
 {
@@ -137,8 +139,8 @@ TEST(test_all_members_are_stated)
     ITERATION(IN_ITERATION)
     SCENE(IN_SCENE)
     FIELD(IN_AXIAL)
-    FIELD(IN_BENDING) CONTACT(IN_CONTACT) FRICTION(IN_FRICTION)
-        other.reference_method.most_steps = 9;
+    FIELD(IN_BENDING)
+    CONTACT(IN_CONTACT) FRICTION(IN_FRICTION) other.reference_method.most_steps = 9;
     expect_other("the reference's method", &asked, &other);
     /* The registries: a field of a method that is got, and a number of a scene, is stated. */
     for (const struct br_method_field *f = br_method_fields;

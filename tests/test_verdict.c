@@ -251,7 +251,7 @@ TEST(test_any_unit)
 /* What would settle a verdict on a table is the row to add. */
 TEST(test_sizes)
 {
-    static const double error[] = {1, .52, .27, .143};
+    static const double error[] = {1, .52, .271, .1435};
     struct made m;
     make(&m, error, 4);
     m.it.may_miss = true;
@@ -335,10 +335,27 @@ TEST(test_turning)
     assert_null(strstr(m.it.reason, "on they grow"));
 }
 
+/* Round-off scatters while it grows, above the coarsest error, too. */
+TEST(test_round_off)
+{
+    static const double errors[][MOST] = {{2.454e-3, 6.134e-4, 1.533e-4, 3.825e-5, 1.014e-5,
+                                           1.642e-6, 1.383e-6, 2.182e-5, 3.1e-5, 1.883e-4, 1.213e-3,
+                                           2.951e-3},
+                                          {6.634e-4, 1.659e-4, 4.146e-5, 1.037e-5, 2.591e-6,
+                                           6.466e-7, 1.596e-7, 5.095e-8, 7.526e-8, 3.82e-7}};
+    static const size_t rows[] = {12, 10};
+    for (size_t i = 0; i < 2; i++) {
+        struct made m;
+        make(&m, errors[i], rows[i]);
+        m.it.expected.order = 2;
+        reach(&m, BR_INCONCLUSIVE, "");
+    }
+}
+
 /* What is advised would do. */
 TEST(test_advice)
 {
-    static const double error[] = {1, .52, .27, .143};
+    static const double error[] = {1, .52, .271, .1435};
     struct made m;
     make(&m, error, 4);
     reach(&m, BR_INCONCLUSIVE, "a tolerance of 0.11 would include it");

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solver/linear/linear_solver.h"
 #include "orders/request.h"
+#include "solver/linear/linear_solver.h"
 #include "study/scene/file.h"
 #include "study/verify/verify.h"
 #include "support.h"

@@ -144,7 +144,7 @@ static enum br_status open_folder(void)
     cli_path("set", path);
     struct br_output output = {0};
     enum br_status status = br_output_open(&output, path, &err);
-    for (int i = 0; i < 1000 && status && strstr(err.message, "in use by"); i++) {
+    for (int i = 0; i < 10000 && status && strstr(err.message, "in use by"); i++) {
         usleep(10000); /* until a killed program is gone */
         output = (struct br_output){0};
         status = br_output_open(&output, path, &err);
@@ -234,12 +234,12 @@ TEST(test_killed_at_random)
     make_old();
     const double start = br_seconds();
     cli_expect(new_line, NULL, 0, "");
-    const double last = 1.3 * (br_seconds() - start);
+    const double last = 1.3 * (br_seconds() - start), first = 1e-3; /* before it can do anything */
     for (int i = 0; i < kills; i++) {
         make_old();
         snprintf(command, sizeof command,
                  "{ timeout -s KILL %.4f \"$BEAMRATE\" %s; } >/dev/null 2>&1 || true",
-                 last * (i + 1) / kills, new_line);
+                 first + last * i / kills, new_line);
         shell(command);
         const char before = set_that_is_there();
         assert_int_equal(open_folder(), BR_OK);
@@ -310,13 +310,15 @@ TEST(test_lock_of_a_removed_file)
     br_output_discard(&output);
 }
 
-static pid_t start_slow(const char *line)
+/* In a process group of its own. */
+static pid_t start_with(const char *line, long n, const char *what)
 {
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child)
         return child;
-    run_with(line, 0, "slow");
+    setpgid(0, 0);
+    run_with(line, n, what);
     _exit(out.exit_code);
 }
 
@@ -355,11 +357,16 @@ TEST(test_two_at_once)
 {
     int ending;
     make_old();
-    const pid_t first = start_slow(new_line);
-    for (int i = 0; i < 1000 && !cli_is_there("set/.beamrate-new"); i++)
+    shell("rm -f reached");
+    const pid_t first = start_with(new_line, 5, "pause");
+    while (!cli_is_there("reached"))
         usleep(5000);
+    assert_true(cli_is_there("set/.beamrate-new"));
     cli_expect(new_line, NULL, 2, "in use by another program");
-    assert_int_equal(waitpid(first, &ending, 0), first);
+    while (waitpid(first, &ending, WNOHANG) == 0) {
+        kill(-first, SIGCONT);
+        usleep(5000);
+    }
     assert_int_equal(ending, 0);
     assert_int_equal(set_that_is_there(), 'r');
     assert_false(cli_is_there("set/.beamrate-new") || cli_is_there("set/.beamrate-lock"));
@@ -372,7 +379,7 @@ TEST(test_many_at_once)
     pid_t child[PROGRAMS];
     clear_set();
     for (int i = 0; i < PROGRAMS; i++)
-        child[i] = start_slow(i % 2 ? old_line : new_line);
+        child[i] = start_with(i % 2 ? old_line : new_line, 0, "slow");
     int done = 0;
     for (int i = 0; i < PROGRAMS; i++) {
         int ending;

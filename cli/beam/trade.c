@@ -310,6 +310,8 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not use it", other);
     if (o->words != 1)
         return br_fail(err, BR_BAD_INPUT, "--split: found %zu scenes, expected one", o->words);
+    if (br_is_trade_source(o->word[0]))
+        return br_fail(err, BR_BAD_INPUT, "--split: found '%s', expected a scene", o->word[0]);
     return BR_OK;
 }
 

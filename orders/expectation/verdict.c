@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/words.h"
+#include "orders/expectation/growth.h"
 #include "orders/line/line_order.h"
 
 const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
@@ -301,39 +302,30 @@ static const struct br_point *first_beyond(const struct br_case *c)
     return first;
 }
 
+/* Whether errors from a row on scatter, as round-off does while it grows: their orders from size to
+ * size rise, and fall again. */
+static bool scatters(const struct br_case *c, size_t from)
+{
+    static const double much = 0.5;
+    double least = INFINITY, top = -INFINITY;
+    for (size_t i = from + 1; i < c->points; i++) {
+        const double rate = br_point_rate(&c->point[i - 1], &c->point[i]);
+        least = fmin(least, rate);
+        top = rate > least + much ? fmax(top, rate) : top;
+        if (top > rate + much)
+            return true;
+    }
+    return false;
+}
+
 /* Whether the finest error is larger than all that show the order: the errors fall, then grow. */
-static bool blows_up(const struct br_case *c)
+static bool blows_up(const struct br_case *c, const struct br_point *first)
 {
     double largest = 0;
     for (size_t i = 0; i < c->points; i++)
         largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
-    return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
-}
-
-/* Where the errors begin to grow, by one law over all of them: their orders from size to size fall,
- * the last two below zero, and turn more slowly again at the fine end. Round-off scatters instead,
- * or is deep; NULL: they do not grow so. */
-static const struct br_point *turning_point(const struct br_case *c)
-{
-    enum { LEAST = 4 };
-    static const double grows = -0.25, scatter = 0.1, deep = 1e-6;
-    double rate = NAN, fell = NAN, turn = NAN;
-    for (size_t i = 1; i < c->points; i++) {
-        const double next = br_point_rate(&c->point[i - 1], &c->point[i]);
-        const double turned = i > 1 ? next - rate : -scatter;
-        if (c->point[i].deviation > 0 || !(turned < scatter)) /* NaN: there is no such order */
-            return NULL;
-        fell = turn, turn = turned;
-        if (i + 1 < c->points)
-            rate = next;
-        else if (!(rate < grows && next < grows && turn > 0.6 * fell))
-            return NULL;
-    }
-    const struct br_point *last = c->point + c->points - 1;
-    const bool clear = c->points > LEAST && last->error > deep * c->point[0].error &&
-                       !(last->error <= c->expected.down_to) &&
-                       c->point[1].error < c->point[0].error;
-    return clear ? last - 2 : NULL;
+    return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest &&
+           !scatters(c, (size_t)(first - c->point));
 }
 
 /* The errors fall, then grow; without an order from the smallest one on. */
@@ -363,7 +355,7 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
     const bool below = first->error < falls_to, small = first->error < 0.5 * falls_to;
     const bool falls = first->error < before->error;
     br_order_text(&c->order, text, sizeof text);
-    if (blows_up(c)) {
+    if (blows_up(c, first)) {
         conclude_growth(c, first);
         return;
     }
@@ -502,6 +494,8 @@ static void decide_order(struct br_case *c)
     const struct br_expectation *e = &c->expected;
     const double low = br_expectation_low(e), high = br_expectation_high(e);
     char text[64], band[64];
+    double first, last;
+    end_rates(c, &first, &last);
     br_order_text(&c->order, text, sizeof text);
     c->margin = fmin(c->order.low - low, high - c->order.high);
     const bool within = c->order.low >= low && c->order.high <= high;
@@ -516,11 +510,23 @@ static void decide_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
+<<<<<<< HEAD
     } else if (c->factor.low > 1 && is_fast(c))
         conclude(c, BR_PASS, "%s", ""); /* exponential: faster than any order */
     else if (isfinite(c->factor.value))
         conclude(c, isinf(high) ? BR_INCONCLUSIVE : BR_FAIL,
                  "the errors fall exponentially, by no order: %s divides them by %s", one_more(c),
+=======
+    } else if (first < last && last <= high)
+        conclude(c, BR_INCONCLUSIVE,
+                 "the orders from size to size rise to %.2f: finer grids would show "
+                 "whether they stop there",
+                 last);
+    else if (isfinite(c->factor.value))
+        conclude(c, BR_FAIL,
+                 "the errors fall exponentially, by no order: one more of 1/%s divides them by %s",
+                 c->kind == BR_VERIFY_TIME ? "k" : "h",
+>>>>>>> main
                  br_order_text(&c->factor, text, sizeof text));
     else
         conclude(c, is_fast(c) ? BR_INCONCLUSIVE : BR_FAIL,
@@ -605,7 +611,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 void br_case_decide(struct br_case *c)
 {
     const struct br_point *failed = first_failed(c), *beyond = first_beyond(c),
-                          *turns = turning_point(c);
+                          *turns = br_turning_point(c);
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");

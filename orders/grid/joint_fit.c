@@ -775,19 +775,6 @@ static void take_one(struct search *s, struct br_joint_fit *fit)
     }
 }
 
-/* Student's distribution of whole freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). */
-static double student_below(double t, double freedom)
-{
-    const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
-    const bool odd = fmod(freedom, 2) > 0;
-    double term = odd ? sqrt(square) : 1, sum = 0;
-    for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
-        sum += term;
-        term *= square * (k - 1) / k;
-    }
-    return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
-}
-
 /* The probability that the order of an axis is below this one, by one model. */
 static double below(const struct candidate *c, int axis, double order)
 {
@@ -796,11 +783,11 @@ static double below(const struct candidate *c, int axis, double order)
                  coarse = changes_along(&c->trial.law, axis) ? c->trial.law.of[axis]->s : 0;
     if (!isfinite(scale))
         return 0.5;
-    double sum = (1 - coarse) * student_below(off / scale, c->trial.freedom);
+    double sum = (1 - coarse) * br_student_below(off / scale, c->trial.freedom);
     if (coarse > 0)
         sum += coarse *
-               student_below((off - c->trial.value[ORDER(axis) - BR_ORDER + BR_SHAPE]) / scale,
-                             c->trial.freedom);
+               br_student_below((off - c->trial.value[ORDER(axis) - BR_ORDER + BR_SHAPE]) / scale,
+                                c->trial.freedom);
     return sum;
 }
 

@@ -80,10 +80,11 @@ static int turns_of(const struct br_line_value *v, size_t first, size_t last)
 /* sure: the least probability. */
 static enum br_sequence sequence_of(const struct br_line_order *found, int turns, double sure)
 {
-    static const double small = 0.4; /* an order: values may grow like log n, or its logarithm */
+    static const double small = 0.4, none = 0.1; /* orders of values like log n, or its logarithm */
     const bool falls = found->converges >= sure, grows = found->diverges >= sure;
     if (!falls && !grows)
-        return turns > 0 && found->order.high < small && found->order.low > -small
+        return turns > 0 && found->order.high < small && found->order.low > -small &&
+                       found->order.value < none
                    ? BR_SEQUENCE_LOGARITHM
                    : BR_SEQUENCE_UNKNOWN;
     if (turns == 0)

@@ -13,24 +13,24 @@ const char *br_law_text(enum br_law law)
     return texts[law];
 }
 
-const struct br_priors br_priors = {
-#define X(name, value, why) .name = value,
+BR_PRIOR_CONST struct br_priors br_priors = {
+#define X(name, value, off, why) .name = value,
     BR_PRIOR_LIST(X)
 #undef X
 };
 
-#define NEXT_TERM(s, share, why)                                           \
-    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)*BR_PRIOR_SCALE, 0, why},     \
-        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share)*BR_PRIOR_SCALE, 0, why},  \
-    {                                                                      \
-        BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)*BR_PRIOR_SCALE, 0, why \
+#define NEXT_TERM(s, share, why)                            \
+    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0, why},     \
+        {BR_LAW_LOWER, s, 0.1, 3, 0.05 * (share), 0, why},  \
+    {                                                       \
+        BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0, why \
     }
-#define ROW(law, s, low, high, prior, curve, why)             \
-    {                                                         \
-        law, s, low, high, (prior)*BR_PRIOR_SCALE, curve, why \
+#define ROW(law, s, low, high, prior, curve, why) \
+    {                                             \
+        law, s, low, high, prior, curve, why      \
     }
 
-const struct br_family br_families[BR_FAMILIES] = {
+BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES] = {
     NEXT_TERM(0.5, 0.1, "half powers: singular data, boundary layers of time steps"),
     NEXT_TERM(1, 0.4, "the usual next power"),
     NEXT_TERM(1.5, 0.08, "half powers"),
@@ -42,6 +42,8 @@ const struct br_family br_families[BR_FAMILIES] = {
     ROW(BR_LAW_NEXT, 0.5, 1e-3, 0.1, 0.01, 1, "h^1/2 and h"),
     ROW(BR_LAW_CANCEL, 0.5, 1e-3, 0.1, 0.01, 1, "the same with the other sign"),
     ROW(BR_LAW_LOCKING, 1, 3e-4, 1, 0.004, 0, "thin plates, layers not resolved"),
+    ROW(BR_LAW_LOCKING, 0.5, 3e-4, 1, 0.002, 0, "layers that begin with the order 1/2"),
+    ROW(BR_LAW_LOCKING, 1.5, 3e-5, 1, 0.002, 0, "the same"),
     ROW(BR_LAW_LOCKING, 2, 1e-5, 1, 0.004, 0, "the same"),
     ROW(BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005, 0,
         "two errors in one norm: a corner of 270 degrees"),
@@ -54,6 +56,8 @@ const struct br_family br_families[BR_FAMILIES] = {
     ROW(BR_LAW_LOGARITHM, -1, 1.5, 30, 0.003, 0, "the same: errors below the power"),
     ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0, "the error of the reference, or of a tolerance"),
     ROW(BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0, "the same in a norm of squares"),
+    ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.001, 1, "the same with a next term h"),
+    ROW(BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.001, 2, "the same with a next term h^2"),
     ROW(BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0, "a reference that is itself computed"),
     ROW(BR_LAW_OFFSET, 0, 0.01, 8, 0.005, 1, "the same with a next term"),
 };
@@ -67,26 +71,28 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
         b.correction = log1p(t);
-        b.change = t / (1 + t);
+        b.slope = b.change = t / (1 + t);
         break;
     case BR_LAW_LOCKING:
         b.correction = -log1p(t);
-        b.change = t / (1 + t);
+        b.slope = b.change = t / (1 + t);
         break;
     case BR_LAW_CANCEL: /* a difference of two terms scatters more, relative to itself, than each */
         b.correction = log(fabs(1 - t));
         b.weight = fmin(1, (1 - t) * (1 - t) / (1 + t * t)) + 1e-12;
         b.change = fmin(1, t);
+        b.slope = t / fabs(1 - t);
         b.density = true;
         break;
     case BR_LAW_SQUARES:
         b.correction = 0.5 * log1p(t * t);
-        b.change = t * t / (1 + t * t);
+        b.slope = b.change = t * t / (1 + t * t);
         break;
     case BR_LAW_LOGARITHM:
         t = parameter - at->log_z;
         b.correction = t > 0.1 ? f->s * log(t) : (double)NAN;
         b.change = 0.05;
+        b.slope = fabs(f->s) * parameter / t;
         break;
     case BR_LAW_FLOOR:
     case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
@@ -94,12 +100,14 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
         b.correction = t < 1 ? -log1p(-t) : (double)NAN;
         b.weight = (1 - t) * (1 - t);
         b.change = fabs(t) / (1 + fabs(t));
+        b.slope = fabs(t) / (1 - t);
         break;
     case BR_LAW_FLOOR_SQUARES:
         t = parameter * at->finest;
         b.correction = t < 1 ? -0.5 * log1p(-t * t) : (double)NAN;
         b.weight = (1 - t * t) * (1 - t * t);
         b.change = t * t;
+        b.slope = t * t / (1 - t * t);
         break;
     default:
         break;

@@ -34,7 +34,8 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
-/* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or bytes. */
+/* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or bytes.
+ */
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 
 /* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */

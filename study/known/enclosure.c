@@ -107,9 +107,8 @@ static void product(const struct recurrence *r)
 static void flow(const struct recurrence *r)
 {
     const struct rule *by = r->by;
-    iv v[BR_TREE_WORK] = {by->next == SQUARE
-                              ? add(point(1), scale(by->slope, square_at(r->out, 0)))
-                              : br_interval_apply(by->partner, r->a, false)};
+    iv v[BR_TREE_WORK] = {by->next == SQUARE ? add(point(1), scale(by->slope, square_at(r->out, 0)))
+                                             : br_interval_apply(by->partner, r->a, false)};
     for (size_t k = 1; k <= r->order; k++) {
         r->out[k] = scale(by->sign, convolve_slope(r->a, v, k, k));
         v[k] = by->next == ITSELF   ? r->out[k]
@@ -124,8 +123,8 @@ static void real_power_series(const struct recurrence *r, double n)
     for (size_t k = 1; k <= r->order; k++) {
         iv sum = {0, 0};
         for (size_t j = 1; j <= k; j++) {
-            const iv factor = br_interval_subtract(multiply(point(n), point((double)j)),
-                                                   point((double)(k - j)));
+            const iv factor =
+                br_interval_subtract(multiply(point(n), point((double)j)), point((double)(k - j)));
             sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
         }
         r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));

@@ -128,8 +128,7 @@ iv br_interval_divide(iv a, iv b)
 
 iv br_interval_square(iv a)
 {
-    const double most = magnitude(a),
-                 least = br_has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high));
+    const double most = magnitude(a), least = br_has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high));
     const double low = least * least, high = most * most;
     if (br_is_none(a))
         return a;

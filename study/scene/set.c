@@ -64,7 +64,8 @@ static enum br_status descend(const struct br_scene_reader *r, int *at, const ch
         return br_scene_refuse(r, line, name, "has a value, expected a mapping of keys to values");
     const int new = value ? add_text(r, value, line) : add_mapping(r, old, line);
     const int key = pair ? pair->key : add_text(r, name, line);
-    if (!new || !key || (!pair && !yaml_document_append_mapping_pair(r->yaml.document, *at, key, new)))
+    if (!new || !key ||
+        (!pair && !yaml_document_append_mapping_pair(r->yaml.document, *at, key, new)))
         return br_no_memory(r->yaml.err, "the scene");
     if (pair)
         pair->value = new;
@@ -119,16 +120,19 @@ enum br_status br_scene_put_sets(const struct br_scene_reader *r, bool verifies)
         return BR_OK; /* the reader refuses the file */
     for (const char *set = r->yaml.set; set; line++) {
         size_t before = BR_LAST_LINE + 1;
-        for (const char *other = r->yaml.set; other < set; other = strchr(other, '\n') + 1, before++)
+        for (const char *other = r->yaml.set; other < set;
+             other = strchr(other, '\n') + 1, before++)
             if (meet(other, set))
-                return br_fail(r->yaml.err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
+                return br_fail(r->yaml.err, BR_BAD_INPUT,
+                               "%s and %s are given, expected one of the two",
                                br_yaml_place(&r->yaml, before, place[0]),
                                br_yaml_place(&r->yaml, line, place[1]));
         if (!verifies && meet(set, "verify="))
             return br_scene_refuse(r, line, "verify", "only 'beamrate check' uses it");
         const char *end = strchr(set, '\n');
         char *word = strndup(set, strcspn(set, "\n"));
-        const enum br_status status = word ? put(r, word, line) : br_no_memory(r->yaml.err, "the scene");
+        const enum br_status status =
+            word ? put(r, word, line) : br_no_memory(r->yaml.err, "the scene");
         free(word);
         if (status)
             return status;

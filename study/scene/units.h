@@ -36,7 +36,8 @@ enum { BR_UNIT_WORDS = 160 };
 const char *br_unit_words(char text[BR_UNIT_WORDS]);
 
 /* The end of a message about a text that is no unit: "; did you mean 'kN/m'?" if a change of one of
- * its words makes a unit of the dimension, else nothing; returns text (out, BR_SUGGESTION bytes). */
+ * its words makes a unit of the dimension, else nothing; returns text (out, BR_SUGGESTION bytes).
+ */
 char *br_unit_suggestion(const char *unknown, struct br_dimension of, char *text);
 
 /* A number in m, s and kg. For a decimal multiple, the double is what strtod reads after the

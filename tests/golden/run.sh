@@ -78,12 +78,12 @@ else
 fi
 while IFS='|' read -r name command files; do
     set -- $name
-    name=${1:-} tolerance= round_off= counts=
+    name=${1:-} tolerance= round_off= counts= long=
     for mark in ${2:-} ${3:-}; do
-        case $mark in round-off) round_off=yes ;; counts) counts=yes ;; *) tolerance=$mark ;; esac
+        case $mark in round-off) round_off=yes ;; counts) counts=yes ;; long) long=yes ;; *) tolerance=$mark ;; esac
     done
     case $name in '' | '#'*) continue ;; esac
-    case $wanted in '  ' | *" $name "*) ;; *) continue ;; esac
+    case $wanted in '  ') [ -z "$long" ] || [ "$update" ] || continue ;; *" $name "*) ;; *) continue ;; esac
     number=$((number + 1))
     run "$(echo "$command" | sed 's/^ *//; s/ *$//')" "$files" >"$folder/new"
     touch "$folder/empty"

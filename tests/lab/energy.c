@@ -3,12 +3,12 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "tests/lab/energy.h"
 #include "base/each.h"
 #include "solver/laws.h"
 #include "solver/method.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/file.h"
+#include "tests/lab/energy.h"
 
 /* ---- the scenes ---- */
 

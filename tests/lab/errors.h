@@ -38,6 +38,7 @@ struct br_error_class {
 };
 extern const struct br_error_class br_error_classes[];
 extern const struct br_error_class br_limit_classes[];    /* of values, for their limits */
+extern const struct br_error_class br_later_classes[];    /* held out at first (held_out.c) */
 extern const struct br_error_class br_held_out_classes[]; /* chosen after the laws (held_out.c) */
 
 #endif

@@ -30,11 +30,15 @@ struct br_grid_law {
     size_t least, most;     /* meshes and steps */
     bool lower;             /* the next terms are larger than the first ones: one to eight times */
     bool logarithm;         /* h^p log(1/h) */
-    size_t blown;           /* so many cells are off by far, in the corner of large k, or anywhere */
-    int digits;             /* as printed; 0: six */
+    size_t blown; /* so many cells are off by far, in the corner of large k, or anywhere */
+    int digits;   /* as printed; 0: six */
     enum { BR_GRID_FULL, BR_GRID_MISSING, BR_GRID_TIED, BR_GRID_DIAGONALS } cells;
     enum { BR_GRID_FALLS, BR_GRID_STAYS, BR_GRID_GROWS, BR_GRID_SCATTERS } kind;
-    enum { BR_GRID_ONE_ORDER, BR_GRID_KINK, BR_GRID_MAXIMUM } changes; /* order: at a size, between */
+    enum {
+        BR_GRID_ONE_ORDER,
+        BR_GRID_KINK,
+        BR_GRID_MAXIMUM
+    } changes; /* order: at a size, between */
 };
 
 static inline double br_grid_normal(struct br_random *r)
@@ -86,8 +90,8 @@ static inline double br_grid_power(const struct br_grid *g, int axis, double x, 
 }
 
 /* An error of both at sizes x, y relative to the coarsest. */
-static inline double br_grid_error(const struct br_grid *g, const double c[2],
-                                   const double next[2], double r, double x, double y, double t)
+static inline double br_grid_error(const struct br_grid *g, const double c[2], const double next[2],
+                                   double r, double x, double y, double t)
 {
     const double a = c[0] * br_grid_power(g, 0, x, t) * (1 + next[0] * x);
     const double b = c[1] * br_grid_power(g, 1, y, t) * (1 + next[1] * y);
@@ -114,8 +118,8 @@ static inline void br_grid_blow(struct br_random *r, struct br_grid *g, size_t b
 {
     const bool corner = br_random_once_in(r, 2);
     for (size_t i = 0; i < blown; i++) {
-        const size_t at = corner ? (g->meshes - 1 - i % 2) * g->steps + i / 2
-                                 : br_random_index(r, g->rows);
+        const size_t at =
+            corner ? (g->meshes - 1 - i % 2) * g->steps + i / 2 : br_random_index(r, g->rows);
         g->e[at] = br_grid_printed(g->e[at] * pow(10, br_random_uniform(r, 0.7, 6)), 6);
     }
 }
@@ -132,16 +136,16 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
     };
     const double ratio = 2, correlation = br_random_uniform(r, law->least_r, law->most_r);
     double next[] = {br_random_uniform(r, -law->next, law->next),
-                           br_random_uniform(r, -law->next, law->next)};
+                     br_random_uniform(r, -law->next, law->next)};
     const double h0 = 1 / floor(br_random_uniform(r, 4, 20)), k0 = br_random_decades(r, -3, 0);
     double c[2];
     for (int a = 0; a < 2 && law->lower; a++)
         next[a] = br_random_uniform(r, 1, 8);
     br_grid_balance(r, g, law->balance, ratio, c);
     const double t = br_grid_change(r, law, g);
-    const double finest = br_grid_error(g, c, next, fmax(0, correlation),
-                                        pow(ratio, 1 - (double)g->meshes),
-                                        pow(ratio, 1 - (double)g->steps), t);
+    const double finest =
+        br_grid_error(g, c, next, fmax(0, correlation), pow(ratio, 1 - (double)g->meshes),
+                      pow(ratio, 1 - (double)g->steps), t);
     const double level = fabs(law->floor) * br_random_uniform(r, 0.3, 1) * finest;
     const double growth = br_random_uniform(r, 0.5, 3);
     for (size_t i = 0; i < g->meshes; i++)
@@ -161,13 +165,15 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
                 continue;
             g->h[g->rows] = h0 * x;
             g->k[g->rows] = k0 * y;
-            g->e[g->rows++] = br_grid_printed(e * exp(law->noise * br_grid_normal(r)), law->digits ? law->digits : 6);
+            g->e[g->rows++] = br_grid_printed(e * exp(law->noise * br_grid_normal(r)),
+                                              law->digits ? law->digits : 6);
         }
     br_grid_blow(r, g, law->blown);
     if (law->kind)
         g->order[0] = g->order[1] = NAN;
 }
 
+/* clang-format off */
 static const struct br_grid_class {
     const char *name;
     enum br_error_group group;
@@ -220,6 +226,7 @@ static const struct br_grid_class {
     {"grows, 5 % noise", BR_NO_ORDER, {.noise = .05, .least = 3, .most = 6, .kind = BR_GRID_GROWS}},
     {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
 };
+/* clang-format on */
 enum { BR_GRID_CLASSES = sizeof br_grid_classes / sizeof *br_grid_classes };
 
 /* Grid `index` of a class and a seed. */
@@ -233,14 +240,14 @@ static inline struct br_grid br_grid_of(size_t class, uint64_t seed, size_t inde
 
 /* ---- values ---- */
 
-/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes; of lines,
- * L + A h^p (1 + c h). */
+/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes; of
+ * lines, L + A h^p (1 + c h). */
 static const struct br_value_class {
     const char *name;
     double next, product, noise; /* relative: at the coarsest, to both errors, to the finest step */
     bool one;                    /* all but one direction is far smaller */
     bool line;                   /* h alone */
-    double mixed;                /* c and d: at the coarsest at least a fifth of it, at most so much */
+    double mixed; /* c and d: at the coarsest at least a fifth of it, at most so much */
 } br_value_classes[] = {
     {"limits, two powers", .next = 0},
     {"limits, next terms", .next = 0.3},

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Classes of lines that nobody had seen while the laws and their priors were chosen. */
+/* Classes of lines that nobody had seen while the laws and their priors were chosen: the later ones
+ * have been looked at since, the last ones have not. */
 #include "tests/lab/draw.h"
 
 static void evenoddfloor(struct br_random *r, struct br_error_line *s)
@@ -142,7 +143,108 @@ static void drifts(struct br_random *r, struct br_error_line *s)
     }
 }
 
-const struct br_error_class br_held_out_classes[] = {
+/* ---- the last ones ---- */
+
+/* Two fields in one norm, of orders 2 and 3. */
+static void twofields(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 4, 8, 2);
+    s->truth = 2;
+    const double c = constant_of(r), a = br_random_decades(r, -.7, .7);
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = digits(c * x * x * hypot(1, a * x), 4);
+    }
+}
+
+/* Cells cut by a boundary: the constant depends on how it cuts. */
+static void cutcells(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 6, 10, 2);
+    s->truth = PICK(r, 1, 2, 3);
+    const double c = constant_of(r), by = uniform(r, .05, .2);
+    EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + uniform(r, -by, by)), 4);
+}
+
+/* Numbers of elements that are rounded, of ratio 1.5. */
+static void roundedmeshes(struct br_random *r, struct br_error_line *s)
+{
+    s->rows = whole(r, 5, 9);
+    s->truth = PICK(r, 1, 2, 4);
+    const double c = constant_of(r), a = uniform(r, -1, 2);
+    double n = uniform(r, 5, 12);
+    EACH_ROW
+    {
+        s->h[i] = 1 / floor(n);
+        s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i] * s->h[i]), 3);
+        n *= 1.5;
+    }
+}
+
+/* Waves that coarse meshes do not resolve: the error of phase is larger there. */
+static void pollution(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 5, 9, 2);
+    s->truth = 2;
+    const double c = constant_of(r), at = s->h[whole(r, 0, 1)];
+    EACH_ROW
+    {
+        const double x = s->h[i] / at;
+        s->e[i] = digits(c * x * x * (1 + x * x) / (1 + .1 * x * x * x * x), 5);
+    }
+}
+
+/* The solver stops at a share of the first residual: a level that scatters, on the last rows. */
+static void tolerance(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 6, 9, 2);
+    s->truth = PICK(r, 2, 3, 4);
+    const double c = constant_of(r);
+    const double level = c * pow(s->h[s->rows - 2], s->truth) * uniform(r, .2, 2);
+    EACH_ROW s->e[i] = digits(hypot(c * pow(s->h[i], s->truth), level * uniform(r, .3, 1)), 5);
+}
+
+/* Time steps reduce the order at boundaries: a term of half an order less, small at first. */
+static void reduction(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 5, 8, 2);
+    const double p = PICK(r, 2, 3);
+    s->truth = p - .5;
+    const double c = constant_of(r), a = uniform(r, .3, 3);
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = digits(c * (pow(x, p) + a * pow(x, p - .5)), 5);
+    }
+}
+
+/* Waves in log h, as of a corner with a complex exponent. */
+static void logwaves(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 5, 9, 2);
+    s->truth = PICK(r, 1, 1.5, 2);
+    const double c = constant_of(r), by = uniform(r, .01, .05), phase = uniform(r, 0, 6);
+    EACH_ROW s->e[i] =
+        digits(c * pow(s->h[i], s->truth) * (1 + by * cos(1.3 * log(s->h[i]) + phase)), 5);
+}
+
+/* Values of few digits, as of a paper's table. */
+static void fewdigits(struct br_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 5, 7, 2);
+    s->truth = PICK(r, 1, 2);
+    s->values = true;
+    s->limit = uniform(r, .5, 3);
+    const double d = uniform(r, .05, .3), a = uniform(r, -.2, .2);
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = digits(s->limit + d * pow(x, s->truth) * (1 + a * x), 6);
+    }
+}
+
+const struct br_error_class br_later_classes[] = {
     {"even-odd, floor", BR_HARD_ERRORS, evenoddfloor},
     {"solver stops early", BR_HARD_ERRORS, stopsearly},
     {"meshes not nested", BR_NOISY_ERRORS, notnested},
@@ -154,5 +256,17 @@ const struct br_error_class br_held_out_classes[] = {
     {"values, single precision", BR_HARD_ERRORS, single},
     {"geometry of order 2", BR_HARD_ERRORS, geometry},
     {"adaptive, drifts", BR_HARD_ERRORS, drifts},
+    {NULL, BR_NO_ORDER, NULL},
+};
+
+const struct br_error_class br_held_out_classes[] = {
+    {"two fields in one norm", BR_HARD_ERRORS, twofields},
+    {"cut cells", BR_NOISY_ERRORS, cutcells},
+    {"rounded meshes", BR_HARD_ERRORS, roundedmeshes},
+    {"pollution", BR_HARD_ERRORS, pollution},
+    {"tolerance of a solver", BR_HARD_ERRORS, tolerance},
+    {"order reduction", BR_HARD_ERRORS, reduction},
+    {"waves in log h", BR_HARD_ERRORS, logwaves},
+    {"values of few digits", BR_HARD_ERRORS, fewdigits},
     {NULL, BR_NO_ORDER, NULL},
 };

@@ -23,6 +23,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "orders/line/laws.h"
 #include "orders/orders.h"
 #include "tests/checks.h"
 #include "tests/lab/grids.h"
@@ -61,7 +62,8 @@ static void observe(const struct br_error_line *line, struct br_point *point, st
             point[i].error = fabs(line->e[i] - line->e[i + 1]);
         }
     }
-    if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, &err)) {
+    const bool few = c->points < BR_VERIFY_LEAST_POINTS; /* they have an order, and no verdict */
+    if (br_case_observe(c, few ? c->points : BR_VERIFY_LEAST_POINTS, &err)) {
         printf("Bail out! %s\n", err.message);
         exit(99);
     }
@@ -141,7 +143,14 @@ static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
 
 static struct br_error_line held_out_line_of(size_t class, uint64_t seed, size_t index)
 {
-    return line_of(&br_held_out_classes[class], seed * 1000 + 300 + class, index);
+    return line_of(&br_held_out_classes[class], seed * 1000 + 400 + class, index);
+}
+
+static void try_later(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line =
+        line_of(&br_later_classes[class], seed * 1000 + 300 + class, index);
+    try_line_of(&line, index, t);
 }
 
 static void try_held_out(size_t class, uint64_t seed, size_t index, struct tally *t)
@@ -534,6 +543,129 @@ static void compare(const struct br_error_class *class, uint64_t seed, bool valu
     printf("\n");
 }
 
+/* ---- priors ---- */
+
+#ifdef BR_PRIORS_CHANGE
+
+/* What lines and limits show together, as shares of 100, and the mean of the logarithm of widths.
+ */
+enum { CLAIMS, COVERS, SILENT, FAILS, FALSE_PASS, WIDTH, LIMITS, HELD, LIMIT_WIDTH, MEASURES };
+static const char *const measure_names[MEASURES] = {"claims",         "covers",     "silent",
+                                                    "FAIL",           "false PASS", "width",
+                                                    "limits: claims", "covers",     "width"};
+
+static void add_classes(const struct lab_run *run, const struct br_error_class *class, try_one *try,
+                        size_t lines, struct tally *sum, double *log_width)
+{
+    for (size_t i = 0; class[i].name; i++) {
+        struct tally t = {.width = run->width};
+        const bool has_order = class[i].group <= BR_HARD_ERRORS || class[i].group == BR_TWO_ORDERS;
+        for (size_t k = 0; k < lines && has_order; k++)
+            try(i, run->seed, k, &t);
+        for (size_t k = 0; k < t.widths; k++)
+            *log_width += log(fmax(t.width[k], 1e-6));
+        sum->widths += t.widths;
+        add(sum, &t);
+    }
+}
+
+static void measure(const struct lab_run *run, size_t lines, double m[MEASURES])
+{
+    struct tally t = {0}, limits = {0};
+    double width = 0, limit_width = 0;
+    add_classes(run, br_error_classes, try_line, lines, &t, &width);
+    add_classes(run, br_later_classes, try_later, lines, &t, &width);
+    add_classes(run, br_limit_classes, try_line_limit, lines, &limits, &limit_width);
+    m[CLAIMS] = 100 * (double)t.claims / (double)t.lines;
+    m[COVERS] = 100 * (double)t.covers / (double)t.claims;
+    m[SILENT] = 100 * (double)t.silent / (double)t.lines;
+    m[FAILS] = 100 * (double)t.fail / (double)t.lines;
+    m[FALSE_PASS] = 100 * (double)t.wrong_pass / (double)t.lines;
+    m[WIDTH] = width / (double)t.widths;
+    m[LIMITS] = 100 * (double)limits.claims / (double)limits.lines;
+    m[HELD] = 100 * (double)limits.covers / (double)limits.claims;
+    m[LIMIT_WIDTH] = limit_width / (double)limits.widths;
+}
+
+/* A cell: what moves from what it was before. */
+static void print_moves(const struct lab_run *run, size_t lines, const double before[MEASURES])
+{
+    double m[MEASURES];
+    bool moves = false;
+    measure(run, lines, m);
+    for (size_t i = 0; i < MEASURES; i++) {
+        const bool width = i == WIDTH || i == LIMIT_WIDTH;
+        const double by = m[i] - before[i];
+        if (!(fabs(by) >= (width ? 0.01 : 0.1)))
+            continue;
+        if (width)
+            printf("%s %s x%.2f", moves ? "," : "", measure_names[i], exp(by));
+        else
+            printf("%s %s %+.1f", moves ? "," : "", measure_names[i], by);
+        moves = true;
+    }
+    printf("%s |", moves ? "" : " -");
+    fflush(stdout);
+}
+
+static void print_prior(const struct lab_run *run, size_t lines, const char *name, double *prior,
+                        double off, const double before[MEASURES])
+{
+    const double kept = *prior, values[] = {off, kept / 2, kept * 2};
+    printf("| %s, %g |", name, kept);
+    for (size_t i = 0; i < 3; i++) {
+        *prior = values[i];
+        print_moves(run, lines, before);
+    }
+    *prior = kept;
+    printf("\n");
+}
+
+/* All laws beside one power and, if everything, all other priors. */
+static void scale(double by, bool everything)
+{
+    for (struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++)
+        f->prior *= by;
+#define X(row, value, off, why) br_priors.row *= everything ? by : 1;
+    BR_PRIOR_LIST(X)
+#undef X
+}
+
+static void print_all(const struct lab_run *run, size_t lines, bool everything,
+                      const double before[MEASURES])
+{
+    printf("| *%s* | |", everything ? "all priors" : "all laws beside one power");
+    for (double by = 0.5; by < 3; by *= 4) {
+        scale(by, everything);
+        print_moves(run, lines, before);
+        scale(1 / by, everything);
+    }
+    printf("\n");
+}
+
+/* One row a prior: what moves without it, with half of it and with twice as much; then all. */
+static void print_priors(const struct lab_run *run, size_t lines)
+{
+    double before[MEASURES];
+    char name[64];
+    measure(run, lines, before);
+    for (size_t i = 0; i < MEASURES; i++)
+        printf("# %s %.2f\n", measure_names[i], before[i]);
+    printf("| prior | without | half | twice |\n|---|---|---|---|\n");
+    print_all(run, lines, true, before);
+    print_all(run, lines, false, before);
+#define X(row, value, off, why) print_prior(run, lines, #row, &br_priors.row, off, before);
+    BR_PRIOR_LIST(X)
+#undef X
+    for (struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
+        snprintf(name, sizeof name, f->curve > 0 ? "%s h^%.2g and h^%.2g" : "%s h^%.2g",
+                 br_law_text(f->law), f->s, f->curve);
+        print_prior(run, lines, name, &f->prior, 0, before);
+    }
+}
+
+#endif
+
 int main(int arguments, char **argument)
 {
     const size_t lines = arguments >= 3   ? strtoul(argument[2], NULL, 10)
@@ -556,6 +688,11 @@ int main(int arguments, char **argument)
         free(run.width);
         return 0;
     }
+#ifdef BR_PRIORS_CHANGE
+    print_priors(&run, lines);
+    free(run.width);
+    return 0;
+#endif
     printf("TAP version 13\n");
     printf("# %%, seed %llu\n# %-29s %6s %6s %6s %6s %6s %6s %6s %8s\n",
            (unsigned long long)run.seed, "class", "claims", "covers", "silent", "PASS", "FAIL",
@@ -571,6 +708,7 @@ int main(int arguments, char **argument)
     end(&run);
     try_classes(&run, br_limit_classes, try_line_limit, lines, "limits of lines");
     run.held_out = true;
+    try_classes(&run, br_later_classes, try_later, lines, "lines that came later");
     try_classes(&run, br_held_out_classes, try_held_out, lines, "held-out lines");
     begin(&run, lines, "limits of held-out lines");
     for (size_t i = 0; br_held_out_classes[i].name; i++)
