@@ -510,28 +510,19 @@ static void decide_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
-<<<<<<< HEAD
     } else if (c->factor.low > 1 && is_fast(c))
         conclude(c, BR_PASS, "%s", ""); /* exponential: faster than any order */
-    else if (isfinite(c->factor.value))
-        conclude(c, isinf(high) ? BR_INCONCLUSIVE : BR_FAIL,
-                 "the errors fall exponentially, by no order: %s divides them by %s", one_more(c),
-=======
-    } else if (first < last && last <= high)
+    else if (first < last && last <= high)
         conclude(c, BR_INCONCLUSIVE,
                  "the orders from size to size rise to %.2f: finer grids would show "
                  "whether they stop there",
                  last);
     else if (isfinite(c->factor.value))
-        conclude(c, BR_FAIL,
-                 "the errors fall exponentially, by no order: one more of 1/%s divides them by %s",
-                 c->kind == BR_VERIFY_TIME ? "k" : "h",
->>>>>>> main
-                 br_order_text(&c->factor, text, sizeof text));
+        conclude(c, BR_FAIL, "the errors fall exponentially, by no order: %s divides them by %s",
+                 one_more(c), br_order_text(&c->factor, text, sizeof text));
     else
-        conclude(c, is_fast(c) ? BR_INCONCLUSIVE : BR_FAIL,
-                 "no order fits the errors, %.2e to %.2e from coarse to fine", c->point[0].error,
-                 c->point[c->points - 1].error);
+        conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
+                 c->point[0].error, c->point[c->points - 1].error);
 }
 
 /* An order can be right while the errors have doubled; errors that have become small mean another
