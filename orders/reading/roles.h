@@ -106,7 +106,7 @@ struct br_table_wishes {
 
 static inline double br_odds(const struct br_role_column *c, const struct br_resolution_column *s)
 {
-    return c->odds[s - br_resolution_columns];
+    return s->is_degree ? 0 : c->odds[s - br_resolution_columns]; /* a degree has no row */
 }
 
 #define BR_NO_ROW SIZE_MAX /* no row, or no column */
