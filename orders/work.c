@@ -250,7 +250,12 @@ static enum br_status refuse_errors(const struct members *all, struct br_error *
                    text);
 }
 
-/* Whether all measure an error; two units refuse. */
+static const char *or_none(const char *unit)
+{
+    return unit && *unit ? unit : "none";
+}
+
+/* Whether all measure an error; two units refuse, and percent beside none. */
 static bool all_measure(struct members *all, const char *name, struct br_work_precision *w,
                         struct br_error *err)
 {
@@ -259,9 +264,12 @@ static bool all_measure(struct members *all, const char *name, struct br_work_pr
         if ((m->error = find_error(m, name, all->cost)) == SIZE_MAX)
             return false;
         const char *unit = m->source->numbers.quantity[m->error].unit;
-        if (unit && w->unit && strcmp(unit, w->unit) != 0)
-            br_fail(err, BR_BAD_INPUT, "%s: %s has the unit %s, and %s in another program",
-                    m->source->path, name, unit, w->unit);
+        if (m > all->list && strcmp(or_none(unit), or_none(w->unit)) != 0 &&
+            ((unit && w->unit) || strcmp(or_none(unit), "%") == 0 ||
+             strcmp(or_none(w->unit), "%") == 0))
+            br_fail(err, BR_BAD_INPUT,
+                    "%s: the unit of %s is %s, and %s in another program; expected one unit",
+                    m->source->path, name, or_none(unit), or_none(w->unit));
         w->unit = unit ? unit : w->unit;
     }
     snprintf(w->quantity, sizeof w->quantity, "%s", name);
@@ -371,7 +379,7 @@ static int by_size(const void *a, const void *b)
 
 /* The order along the points of a program. Costs are without its start, and without the sizes that
  * are mostly that; over costs, of the points of its own front. */
-static enum br_status find_order(const struct br_work_program *program, enum line what,
+static enum br_status find_order(struct br_work_program *program, enum line what,
                                  struct br_estimate *order, struct br_error *err)
 {
     const struct br_work_point *p = program->point;
@@ -395,6 +403,13 @@ static enum br_status find_order(const struct br_work_program *program, enum lin
     qsort(at, taken, sizeof *at, by_size);
     const enum br_status status = br_line_order_find(at, taken, &found, err);
     *order = br_order_determined(&found.order) ? found.order : (struct br_estimate){NAN, NAN, NAN};
+    for (size_t i = 0; i < count && !status && what == COST_OVER_SIZE; i++)
+        for (size_t k = found.first; k < taken && k <= found.last; k++)
+            if (k == found.outlier && at[k].z == p[i].z)
+                strcpy(program->odd, p[i].label);
+    if (!status && what == ERROR_OVER_SIZE)
+        program->stalls = isfinite(found.order.value) &&
+                          (found.floor > 0 || found.outlier + 1 == taken || found.last + 1 < taken);
     free(at);
     return status;
 }
@@ -428,6 +443,8 @@ static enum br_status study_program(struct br_work_program *p, const struct br_n
     if (find_order(p, COST_OVER_SIZE, &p->growth, err) ||
         find_order(p, ERROR_OVER_SIZE, &order, err) || find_order(p, ERROR_OVER_COST, &over, err))
         return err->status;
+    if (p->stalls)
+        over = order = (struct br_estimate){NAN, NAN, NAN};
     p->tenth = (struct br_estimate){pow(10, 1 / over.value), pow(10, 1 / over.high),
                                     pow(10, 1 / over.low)};
     for (size_t i = 0; i < p->points && p->point[i].is_start; i++)

@@ -57,6 +57,8 @@ struct br_work_program {
     char at[64];                 /* and its size, "n = 1024" */
     double start;                /* of the program, part of each of its costs */
     char starts[BR_CELL_NAME];   /* up to this size the cost is mostly the start; "": nowhere */
+    char odd[BR_CELL_NAME];      /* the cost there is no part of the growth; "": all are */
+    bool stalls;                 /* the finest errors no longer fall: no forecast */
     struct br_work_point *point; /* from coarse to fine; borrowed */
     size_t points, failed;       /* runs with error and cost; without */
     char first[BR_CELL_NAME];    /* the first that failed, */

@@ -174,6 +174,13 @@ static void say_troubles(struct br_document *d, const struct br_work_precision *
         if (*p->starts)
             br_put_answer(d, "%s: up to %s its %s is mostly its start, %s.", p->name, p->starts,
                           w->cost, cost_text(w, p->start, cost));
+        if (*p->odd)
+            br_put_answer(d,
+                          "%s: the %s at %s is far from the line of the others: no part of the "
+                          "growth.",
+                          p->name, w->cost, p->odd);
+        if (p->stalls)
+            br_put_answer(d, "%s: its finest errors no longer fall: no forecast.", p->name);
     }
 }
 

@@ -353,6 +353,7 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
         {" \xc2\xb5s us ", 1e-6, true},
         {" ns ", 1e-9, true},
         {" min ", 60, true},
+        {" h hours ", 3600, true},
         {" b bytes ", 1e-6, false},
         {" kb ", 1e-3, false},
         {" mb ", 1, false},
