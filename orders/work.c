@@ -382,6 +382,7 @@ static int by_size(const void *a, const void *b)
 static enum br_status find_order(struct br_work_program *program, enum line what,
                                  struct br_estimate *order, struct br_error *err)
 {
+    static const double least = 0.05; /* of the finest error, a floor that a forecast would miss */
     const struct br_work_point *p = program->point;
     const size_t count = program->points;
     struct br_order_point *at = br_allocate(count + 1, sizeof *at);
@@ -407,9 +408,11 @@ static enum br_status find_order(struct br_work_program *program, enum line what
         for (size_t k = found.first; k < taken && k <= found.last; k++)
             if (k == found.outlier && at[k].z == p[i].z)
                 strcpy(program->odd, p[i].label);
-    if (!status && what == ERROR_OVER_SIZE)
-        program->stalls = isfinite(found.order.value) &&
-                          (found.floor > 0 || found.outlier + 1 == taken || found.last + 1 < taken);
+    if (!status && what == ERROR_OVER_SIZE && isfinite(found.order.value)) {
+        const enum br_flag flag = br_line_order_flag(&found, at, taken - 1);
+        program->stalls = found.floor > least * at[taken - 1].error ||
+                          (flag != BR_FLAG_NONE && flag != BR_FLAG_OUTLIER);
+    }
     free(at);
     return status;
 }
