@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "base/load.h"
 #include "base/words.h"
 #include "cli/command.h"
 #include "cli/progress.h"
@@ -110,39 +109,27 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     return failed ? err->status : BR_OK;
 }
 
-/* Reads the request of a table, or of --run (path NULL). */
-static enum br_status read_beside(const char *path, const struct br_options *o,
-                                  struct br_orders_request *q, struct br_error *err)
-{
-    const bool standard = path && strcmp(path, "-") == 0;
-    *q = br_orders_request_default();
-    const bool failed = copy_text(!path      ? "--run"
-                                  : standard ? "standard input"
-                                             : path,
-                                  &q->path, err) ||
-                        copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err) ||
-                        (path && br_text_load(standard ? BR_STANDARD_INPUT : path, BR_LONGEST_TABLE,
-                                              "table", &q->table, err)) ||
-                        read_options(o, q, err);
-    return failed ? err->status : BR_OK;
-}
-
-/* Reads a study file. It refuses options for what the file has. */
-static enum br_status read_study(const char *path, const struct br_options *o,
-                                 struct br_study_file *study, struct br_error *err)
+/* A study file refuses options for what it has. */
+static enum br_status read_file(const char *path, const struct br_options *o,
+                                struct br_study_file *study, struct br_error *err)
 {
     static const enum br_option_id refused[] = {
         BR_OPT_N,         BR_OPT_K,      BR_OPT_COLUMN,  BR_OPT_ERROR,      BR_OPT_VALUE,
         BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ,    BR_OPT_TIME_LIMIT, BR_OPT_REPEAT,
         BR_OPT_WHERE,     BR_OPT_FINEST, BR_OPT_WITHOUT, BR_OPTIONS};
-    char *text = NULL;
-    if (br_first_given(o, refused))
+    if (br_is_yaml(path) && br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an option repeats what the study file says: give it in one place",
                        path);
-    const bool failed = br_text_load(path, BR_LONGEST_STUDY, "study file", &text, err) ||
-                        br_study_file_read(path, text, o, study, err);
-    free(text);
+    return br_study_file_open(path, o, study, err);
+}
+
+static enum br_status read_run(const struct br_options *o, struct br_orders_request *q,
+                               struct br_error *err)
+{
+    *q = br_orders_request_default();
+    const bool failed = copy_text("--run", &q->path, err) ||
+                        copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -155,9 +142,8 @@ static enum br_status read_request(struct orders_run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT,
                        word ? "--run and a file are given, expected one of the two"
                             : "no file is given, expected a table, a study file, or --run");
-    const char *dot = word ? strrchr(word, '.') : NULL;
-    const bool study = dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
-    if (study ? read_study(word, o, &r->study, err) : read_beside(word, o, q, err))
+    if ((word ? read_file(word, o, &r->study, err) : read_run(o, q, err)) ||
+        (!(word && br_is_yaml(word)) && read_options(o, q, err)))
         return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
     struct br_error inner = {0};

@@ -21,23 +21,12 @@ struct programs_run {
     size_t count;
 };
 
-static bool ends(const char *word, const char *end)
-{
-    const size_t length = strlen(word), least = strlen(end);
-    return length > least && strcmp(word + length - least, end) == 0;
-}
-
-static bool is_yaml(const char *word)
-{
-    return ends(word, ".yaml") || ends(word, ".yml");
-}
-
 bool br_is_trade_source(const char *word)
 {
     struct br_error err;
     char *text = NULL;
     const char *dot = strrchr(word, '.'), *slash = strrchr(word, '/');
-    if (!is_yaml(word))
+    if (!br_is_yaml(word))
         return (strcmp(word, "-") == 0 && !br_program.beam) ||
                (dot && dot[1] && (!slash || dot > slash));
     const bool is =
@@ -50,25 +39,10 @@ static enum br_status read_source(struct programs_run *r, const char *word, stru
 {
     struct br_study_file *f = &r->file[r->files];
     struct br_work_source *s = &r->source[r->files++];
-    struct br_orders_request *q = &f->request;
-    char *text = NULL;
-    const bool standard = strcmp(word, "-") == 0;
-    if (br_text_load(standard ? BR_STANDARD_INPUT : word, BR_LONGEST_TABLE, "table or study file",
-                     &text, err))
-        return err->status;
-    if (is_yaml(word)) {
-        br_study_file_read(word, text, r->options, f, err);
-        free(text);
-    } else {
-        *q = br_orders_request_default();
-        q->table = text;
-        if (!(q->path = strdup(standard ? "standard input" : word)))
-            br_no_memory(err, "the table");
-    }
-    q->cost = r->cost;
-    s->path = q->path;
-    s->numbers = &f->numbers;
-    return err->status;
+    const enum br_status status = br_study_file_open(word, r->options, f, err);
+    f->request.cost = r->cost;
+    s->path = f->request.path;
+    return status;
 }
 
 static enum br_status read_all(struct programs_run *r, const struct br_work_source *other,
@@ -96,7 +70,7 @@ static enum br_status compute(struct programs_run *r, struct br_error *err)
     for (size_t i = 0; i < r->files && !status; i++) {
         br_progress_part(i, r->files);
         r->file[i].request.observer = observer;
-        status = br_orders_read(&r->file[i].request, &r->file[i].numbers, err);
+        status = br_orders_read(&r->file[i].request, &r->source[i].numbers, err);
     }
     br_progress_end();
     status = br_progress_result(status, err);
@@ -116,8 +90,8 @@ static enum br_status write_all(struct programs_run *r, struct br_error *err)
         runs |= r->file[i].request.command != NULL;
     br_report_work(r->works, r->count, runs ? provenance.machine : NULL, d);
     for (size_t i = 0; i < r->files; i++)
-        if (r->file[i].numbers.taken)
-            br_put_note(d, "%s: %s.", r->source[i].name, r->file[i].numbers.taken);
+        if (r->source[i].numbers.taken)
+            br_put_note(d, "%s: %s.", r->source[i].name, r->source[i].numbers.taken);
     br_session_draw(r->session, d, br_work_draw(r->works, r->count, d->caption),
                     "Errors over costs, with each program's own best and the front of all");
     br_put_provenance(d, &provenance);
@@ -133,12 +107,12 @@ enum br_status br_trade_sources(const struct br_options *options, struct br_sess
     bool failed = br_session_alone(err) || read_all(&r, other, others, err) ||
                   br_session_open(session, err) || compute(&r, err) || write_all(&r, err);
     for (size_t i = 0; i < r.files && !failed; i++)
-        if (br_numbers_check_runs(&r.file[i].numbers, err))
+        if (br_numbers_check_runs(&r.source[i].numbers, err))
             failed = br_failed_in(err, r.source[i].name);
     br_work_clear(r.works, r.count);
     for (size_t i = 0; i < r.files; i++)
         br_study_file_clear(&r.file[i]);
     free(r.file);
-    free(r.source);
+    br_work_sources_clear(r.source, r.files); /* the others are borrowed */
     return failed ? err->status : BR_OK;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/load.h"
 #include "base/quote.h"
 #include "cli/provenance.h"
 
@@ -229,6 +230,32 @@ enum br_status br_study_file_read(const char *path, const char *text,
         return err->status;
     return f->request.command && br_session_alone(err) ? err->status
                                                        : check_trust(&f->request, options, err);
+}
+
+bool br_is_yaml(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+}
+
+enum br_status br_study_file_open(const char *path, const struct br_options *options,
+                                  struct br_study_file *f, struct br_error *err)
+{
+    const bool standard = strcmp(path, "-") == 0, study = br_is_yaml(path);
+    char *text = NULL;
+    if (br_text_load(standard ? BR_STANDARD_INPUT : path,
+                     study ? BR_LONGEST_STUDY : BR_LONGEST_TABLE, study ? "study file" : "table",
+                     &text, err))
+        return err->status;
+    if (study) {
+        const enum br_status status = br_study_file_read(path, text, options, f, err);
+        free(text);
+        return status;
+    }
+    f->request = br_orders_request_default();
+    f->request.table = text;
+    f->request.path = strdup(standard ? "standard input" : path);
+    return f->request.path ? BR_OK : br_no_memory(err, "the table");
 }
 
 struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)

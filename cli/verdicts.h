@@ -63,6 +63,12 @@ enum br_status br_study_file_read(const char *path, const char *text,
                                   const struct br_options *options, struct br_study_file *file,
                                   struct br_error *err);
 
+/* Reads a study file, which ends in .yaml or .yml, or else a table; "-": of standard input. Fails
+ * as br_text_load and br_study_file_read do; clear it even then. */
+bool br_is_yaml(const char *path);
+enum br_status br_study_file_open(const char *path, const struct br_options *options,
+                                  struct br_study_file *file, struct br_error *err);
+
 /* Applies the options for its runs; returns the check for its verdicts, with its path, name and
  * problem. */
 struct br_check br_study_file_check(struct br_study_file *file, const struct br_options *options);

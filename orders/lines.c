@@ -112,6 +112,7 @@ static enum br_status begin_case(const struct br_orders *o, size_t quantity, enu
         .order = {NAN, NAN, NAN},
         .may_miss = !o->numbers->all_needed,
         .window = q->window,
+        .of_degree = o->numbers->column[axis]->is_degree,
     };
     c->point = br_allocate(points + 1, sizeof *c->point);
     return c->point ? BR_OK : br_no_memory(err, "the orders");
@@ -210,8 +211,14 @@ static enum br_status find_limits(const struct br_orders *o, size_t quantity, si
                                                 .half = half_width(row, quantity),
                                                 .rounding = br_orders_rounding(o, quantity, row)};
     }
-    const enum br_status status = value && given ? br_limits_find(value, count, &line->limits, err)
-                                                 : br_no_memory(err, "the limits");
+    /* Values over a degree have a limit, but no order: of two there is no grid convergence index.
+     */
+    const size_t most = o->numbers->column[line->axis]->is_degree ? 2 : count;
+    enum br_status status =
+        value && given ? br_limits_find(value, most < count ? most : count, &line->limits, err)
+                       : br_no_memory(err, "the limits");
+    if (!status && most < count)
+        status = br_limit_of_values(value, count, &line->limits.limit, err);
     free(value);
     return status;
 }

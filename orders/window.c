@@ -86,14 +86,19 @@ static enum br_status refuse_size(const struct br_numbers *n, const char *path,
     return status;
 }
 
-static void leave_out(struct br_numbers *n, struct br_numbers_row *row)
+/* Leaves out the rows of a size: all that have its name, since sizes are printed to six digits. */
+static void leave_out(struct br_numbers *n, enum br_axis axis, const struct br_numbers_row *size)
 {
-    for (size_t q = 0; q < n->quantities; q++)
-        row->out[q] = BR_FLAG_BY_HAND;
+    char name[64], other[64];
+    br_numbers_name(n, size, axis, name);
+    for (size_t i = 0; i < n->rows; i++) {
+        br_numbers_name(n, &n->row[i], axis, other);
+        for (size_t q = 0; q < n->quantities && strcmp(other, name) == 0; q++)
+            n->row[i].out[q] = BR_FLAG_BY_HAND;
+    }
 }
 
-/* Leaves out the rows of one size. Sizes are printed to six digits: nearly equal ones are one,
- * where no other is equal. */
+/* Leaves out one size. Nearly equal ones are one, where no other is equal. */
 static enum br_status leave_size_out(struct br_numbers *n, const char *path,
                                      const struct item *item, struct br_error *err)
 {
@@ -109,11 +114,7 @@ static enum br_status leave_size_out(struct br_numbers *n, const char *path,
                        "%s: --without: %s is a size of %s and of %s, expected %s=%s or %s=%s", path,
                        item->text, n->column[0]->name, n->column[1]->name, n->column[0]->name,
                        item->text, n->column[1]->name, item->text);
-    const enum br_axis axis = found[0] ? BR_AXIS_SPACE : BR_AXIS_TIME;
-    const double z = found[axis]->z[axis];
-    for (size_t i = 0; i < n->rows; i++)
-        if (n->row[i].z[axis] == z)
-            leave_out(n, &n->row[i]);
+    leave_out(n, found[0] ? BR_AXIS_SPACE : BR_AXIS_TIME, found[0] ? found[0] : found[1]);
     return BR_OK;
 }
 
@@ -164,20 +165,24 @@ static size_t sizes_of(const struct br_numbers *n, size_t q, enum br_axis axis, 
     return different;
 }
 
-/* Leaves out all but the finest sizes along each axis. "the 3 finest of 6", "of 6 n and of 4 k". */
+/* Leaves out all but the finest sizes along each axis. "the 3 finest of 6", "of 6 n and of 4 k"; of
+ * a quantity with fewer sizes all. */
 static void keep_finest(struct br_numbers *n, size_t q, size_t finest, double *z, char *text,
                         size_t size)
 {
     double coarsest[BR_AXES] = {INFINITY, INFINITY};
+    size_t count[BR_AXES] = {0};
     const bool both = n->column[0] && n->column[1];
-    br_append(text, size, "the %zu finest", finest);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
+        count[axis] = sizes_of(n, q, axis, z);
+        coarsest[axis] = count[axis] > finest ? z[finest - 1] : (double)INFINITY;
+    }
+    const size_t most = count[0] > count[1] ? count[0] : count[1];
+    br_append(text, size, "the %zu finest", finest < most ? finest : most);
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
-        if (n->column[axis]) {
-            const size_t count = sizes_of(n, q, axis, z);
-            coarsest[axis] = count > finest ? z[finest - 1] : (double)INFINITY;
-            br_append(text, size, "%s of %zu%s%s", both && axis ? " and" : "", count,
+        if (n->column[axis])
+            br_append(text, size, "%s of %zu%s%s", both && axis ? " and" : "", count[axis],
                       both ? " " : "", both ? n->column[axis]->name : "");
-        }
     for (size_t i = 0; i < n->rows; i++)
         if (n->row[i].z[0] > coarsest[0] || n->row[i].z[1] > coarsest[1])
             n->row[i].out[q] = BR_FLAG_BY_HAND;
@@ -225,13 +230,15 @@ static enum br_status check_left(const struct br_numbers *n, const char *path, s
 static enum br_status open_window(struct br_numbers *n, const struct br_orders_request *r, size_t q,
                                   double *z, struct br_error *err)
 {
-    char text[200] = "";
+    const size_t size = 100 + (r->without ? strlen(r->without) : 0);
+    char *text = n->quantity[q].window = br_allocate(size, 1);
+    if (!text)
+        return br_no_memory(err, "the window");
     if (r->finest > 0)
-        keep_finest(n, q, (size_t)r->finest, z, text, sizeof text);
+        keep_finest(n, q, (size_t)r->finest, z, text, size);
     if (r->without)
-        br_append(text, sizeof text, "%s %s", *text ? ", without" : "all but", r->without);
-    n->quantity[q].window = strdup(text);
-    return n->quantity[q].window ? BR_OK : br_no_memory(err, "the window");
+        br_append(text, size, "%s %s", *text ? ", without" : "all but", r->without);
+    return BR_OK;
 }
 
 enum br_status br_orders_window(const struct br_orders_request *r, struct br_numbers *n,

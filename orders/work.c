@@ -65,34 +65,30 @@ size_t br_work_next(const struct br_work_point *p, size_t count, size_t last)
     return next;
 }
 
-bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b)
-{
-    return fabs(a->cost - b->cost) <= hypot(a->half, b->half);
-}
-
 /* ---- what a program has ---- */
 
-static void name_source(const char *path, char *name, size_t size)
+/* The name of a file without folders (out) and, but for endings like ".2", without its ending;
+ * returns its length. */
+static int stem_of(const char *path, const char **stem)
 {
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyz";
-    const char *slash = strrchr(path, '/'), *from = slash && slash[1] ? slash + 1 : path;
-    const char *dot = strrchr(from, '.');
-    const bool cut = dot > from && dot[1] && strspn(dot + 1, letters) == strlen(dot + 1);
-    snprintf(name, size, "%.*s", cut ? (int)(dot - from) : (int)strlen(from), from);
+    const char *slash = strrchr(path, '/');
+    *stem = slash && slash[1] ? slash + 1 : path;
+    const char *dot = strrchr(*stem, '.');
+    const bool cut =
+        dot > *stem && dot[1] && !dot[1 + strspn(dot + 1, "abcdefghijklmnopqrstuvwxyz")];
+    return cut ? (int)(dot - *stem) : (int)strlen(*stem);
 }
 
 void br_work_name_sources(struct br_work_source *s, size_t count)
 {
-    char other[sizeof s->name];
     for (size_t i = 0; i < count; i++) {
-        name_source(s[i].path, s[i].name, sizeof s[i].name);
-        bool twice = false;
-        for (size_t k = 0; k < count && !twice; k++) {
-            name_source(s[k].path, other, sizeof other);
-            twice = k != i && strcmp(other, s[i].name) == 0;
-        }
-        if (twice)
-            snprintf(s[i].name, sizeof s[i].name, "%.299s", s[i].path);
+        const char *stem, *other;
+        const int length = stem_of(s[i].path, &stem);
+        snprintf(s[i].name, sizeof s[i].name, "%.*s", length, stem);
+        for (size_t k = 0; k < count; k++)
+            if (k != i && stem_of(s[k].path, &other) == length &&
+                strncmp(stem, other, (size_t)length) == 0)
+                snprintf(s[i].name, sizeof s[i].name, "%s", s[i].path);
     }
 }
 
@@ -122,7 +118,7 @@ static const char *case_of(const struct br_quantity *q)
 /* Whether column i is of this program; its name without the case (out). */
 static bool has(const struct member *m, size_t i, char name[NAME])
 {
-    const struct br_quantity *q = &m->source->numbers->quantity[i];
+    const struct br_quantity *q = &m->source->numbers.quantity[i];
     const size_t length = q->case_at ? q->case_at : strlen(q->name);
     snprintf(name, NAME, "%.*s", (int)(length < NAME ? length : NAME - 1), q->name);
     return strcmp(case_of(q), m->of) == 0;
@@ -131,7 +127,7 @@ static bool has(const struct member *m, size_t i, char name[NAME])
 /* The error of that name; SIZE_MAX: there is none. */
 static size_t find_error(const struct member *m, const char *name, const char *cost)
 {
-    const struct br_numbers *n = m->source->numbers;
+    const struct br_numbers *n = &m->source->numbers;
     char text[NAME];
     for (size_t i = 0; i < n->quantities; i++)
         if (has(m, i, text) && !n->quantity[i].is_value && strcasecmp(text, name) == 0 &&
@@ -140,42 +136,35 @@ static size_t find_error(const struct member *m, const char *name, const char *c
     return SIZE_MAX;
 }
 
-/* Takes the column of that name, or, where it is NULL, those of that kind. */
-static void find_cost(struct member *m, const char *name, enum br_cost kind)
+/* Takes the column of a name; else those of a kind, before which a time goes that does not say
+ * which. */
+static bool find_cost(struct member *m, const char *name, enum br_cost kind)
 {
-    static const char *const units[BR_COSTS + 1] = {"s", "s", "s", "", "", "MB", NULL};
-    const struct br_numbers *n = m->source->numbers;
+    enum { NONE, A_TIME, KIND, NAMED } fits, best = NONE;
+    const struct br_numbers *n = &m->source->numbers;
     char text[NAME];
-    for (size_t i = 0; i < n->quantities + n->costs && !(name && m->costs); i++) {
+    m->costs = 0;
+    for (size_t i = 0; i < n->quantities + n->costs && best < NAMED; i++) {
         const char *unit = n->quantity[i].unit;
         double factor;
-        const enum br_cost is = has(m, i, text) ? br_cost_of(text, unit, &factor) : BR_COSTS;
-        if (*text && strcmp(case_of(&n->quantity[i]), m->of) == 0 &&
-            (name ? strcmp(text, name) == 0 : is == kind && is != BR_COSTS)) {
-            m->costs++;
-            m->cost = i;
-            m->kind = is;
-            m->factor = is == BR_COST_MEMORY ? 1e-6 * factor : factor;
-            m->unit = units[is] ? units[is] : unit ? unit : "";
-        }
+        if (!has(m, i, text))
+            continue;
+        const enum br_cost is = br_cost_of(text, unit, &factor);
+        fits = *name && strcmp(text, name) == 0                    ? NAMED
+               : is == BR_COSTS                                    ? NONE
+               : is == (kind == BR_COST_TIME ? BR_COST_CPU : kind) ? KIND
+               : is == BR_COST_TIME && kind <= BR_COST_TIME        ? A_TIME
+                                                                   : NONE;
+        if (fits == NONE || fits < best)
+            continue;
+        m->costs = fits > best ? 1 : m->costs + 1;
+        best = fits;
+        m->cost = i;
+        m->kind = is;
+        m->factor = factor;
+        m->unit = is < BR_COSTS ? br_costs[is].unit : unit ? unit : "";
     }
-}
-
-/* The column of a name; else those of a kind, before which a time goes that does not say which. */
-static bool have_cost(struct members *all, const char *name, enum br_cost kind)
-{
-    bool have = true;
-    for (struct member *m = all->list; m < all->list + all->count; m++) {
-        m->costs = 0;
-        if (name)
-            find_cost(m, name, BR_COSTS);
-        if (!m->costs)
-            find_cost(m, NULL, kind == BR_COST_TIME ? BR_COST_CPU : kind);
-        if (!m->costs && kind <= BR_COST_TIME)
-            find_cost(m, NULL, BR_COST_TIME);
-        have &= m->costs > 0;
-    }
-    return have;
+    return best > NONE;
 }
 
 static enum br_status choose_cost(struct members *all, struct br_error *err)
@@ -184,11 +173,15 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
                                          BR_COST_ITERATIONS, BR_COST_MEMORY};
     const bool named = *all->cost;
     double factor;
-    bool found = named && have_cost(all, all->cost, br_cost_of(all->cost, NULL, &factor));
-    for (size_t i = 0; i < sizeof usual / sizeof *usual && !named && !found; i++)
-        found = have_cost(all, NULL, usual[i]);
+    const enum br_cost kind = br_cost_of(all->cost, NULL, &factor);
+    bool found = false;
+    for (size_t i = 0; i < (named ? 1 : sizeof usual / sizeof *usual) && !found; i++) {
+        found = true;
+        for (struct member *m = all->list; m < all->list + all->count; m++)
+            found &= find_cost(m, all->cost, named ? kind : usual[i]);
+    }
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
-        const struct br_numbers *n = m->source->numbers;
+        const struct br_numbers *n = &m->source->numbers;
         if (named ? !m->costs : !n->costs)
             return br_fail(err, BR_BAD_INPUT,
                            named ? "%s%s: --cost: found no cost '%s'"
@@ -213,22 +206,17 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
 
 /* ---- what all have ---- */
 
-static void say_name(const struct member *m, char *text, size_t size)
-{
-    br_append(text, size, "%s%s", m->source->name, m->of);
-}
-
 static enum br_status list_members(const struct br_work_source *source, size_t sources,
                                    struct members *all, struct br_error *err)
 {
     size_t most = 0;
     for (size_t s = 0; s < sources; s++)
-        most += source[s].numbers->quantities;
+        most += source[s].numbers.quantities;
     if (!(all->list = br_allocate(most + 1, sizeof *all->list)))
         return br_no_memory(err, "the programs");
     for (size_t s = 0; s < sources; s++)
-        for (size_t i = 0; i < source[s].numbers->quantities; i++) {
-            const char *of = case_of(&source[s].numbers->quantity[i]);
+        for (size_t i = 0; i < source[s].numbers.quantities; i++) {
+            const char *of = case_of(&source[s].numbers.quantity[i]);
             const struct member *m = all->list;
             while (m < all->list + all->count &&
                    (strcmp(m->source->name, source[s].name) || strcmp(m->of, of)))
@@ -249,9 +237,8 @@ static enum br_status refuse_errors(const struct members *all, struct br_error *
     char text[700] = "", name[NAME];
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
         size_t said = 0;
-        br_append(text, sizeof text, m == all->list ? "" : "; ");
-        say_name(m, text, sizeof text);
-        for (size_t i = 0; i < m->source->numbers->quantities; i++)
+        br_append(text, sizeof text, "%s%s%s", m == all->list ? "" : "; ", m->source->name, m->of);
+        for (size_t i = 0; i < m->source->numbers.quantities; i++)
             if (has(m, i, name) && find_error(m, name, all->cost) == i)
                 br_append(text, sizeof text, "%s%s", said++ ? ", " : " measures ", name);
         if (!said)
@@ -263,7 +250,12 @@ static enum br_status refuse_errors(const struct members *all, struct br_error *
                    text);
 }
 
-/* Whether all measure an error; two units refuse. */
+static const char *or_none(const char *unit)
+{
+    return unit && *unit ? unit : "none";
+}
+
+/* Whether all measure an error; two units refuse, and percent beside none. */
 static bool all_measure(struct members *all, const char *name, struct br_work_precision *w,
                         struct br_error *err)
 {
@@ -271,10 +263,13 @@ static bool all_measure(struct members *all, const char *name, struct br_work_pr
     for (struct member *m = all->list; m < all->list + all->count; m++) {
         if ((m->error = find_error(m, name, all->cost)) == SIZE_MAX)
             return false;
-        const char *unit = m->source->numbers->quantity[m->error].unit;
-        if (unit && w->unit && strcmp(unit, w->unit) != 0)
-            br_fail(err, BR_BAD_INPUT, "%s: %s has the unit %s, and %s in another program",
-                    m->source->path, name, unit, w->unit);
+        const char *unit = m->source->numbers.quantity[m->error].unit;
+        if (m > all->list && strcmp(or_none(unit), or_none(w->unit)) != 0 &&
+            ((unit && w->unit) || strcmp(or_none(unit), "%") == 0 ||
+             strcmp(or_none(w->unit), "%") == 0))
+            br_fail(err, BR_BAD_INPUT,
+                    "%s: the unit of %s is %s, and %s in another program; expected one unit",
+                    m->source->path, name, or_none(unit), or_none(w->unit));
         w->unit = unit ? unit : w->unit;
     }
     snprintf(w->quantity, sizeof w->quantity, "%s", name);
@@ -307,10 +302,11 @@ static enum br_axis line_of(const struct br_numbers *n)
 
 static void take_points(struct br_work_precision *w, const struct member *m)
 {
-    const struct br_numbers *n = m->source->numbers;
+    const struct br_numbers *n = &m->source->numbers;
     struct br_work_program *p = &w->program[w->programs];
     const enum br_axis axis = p->axis = line_of(n);
-    say_name(m, p->name, sizeof p->name);
+    p->point = w->point + w->points;
+    snprintf(p->name, sizeof p->name, "%s%.99s", m->source->name, m->of);
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
         if (row->absent && row->absent[m->error])
             continue;
@@ -342,27 +338,27 @@ static double exponent(const struct br_work_point *p)
     return log(p[1].cost / p[0].cost) / log(p[0].z / p[1].z);
 }
 
-/* Coarse sizes whose cost hardly grows: a run there is mostly its start. *start (out): that. */
-static void find_starts(struct br_work_point *p, size_t count, double *start)
+/* Coarse sizes whose cost hardly grows: a run there is mostly its start. */
+static void find_starts(struct br_work_program *program)
 {
     static const double hardly = 0.5;
+    struct br_work_point *p = program->point;
     double most = 0;
-    for (size_t i = 0; i + 1 < count; i++)
+    for (size_t i = 0; i + 1 < program->points; i++)
         most = fmax(most, exponent(&p[i]));
-    for (size_t i = 0; i + 1 < count && exponent(&p[i]) < fmin(hardly, most / 2); i++)
+    for (size_t i = 0; i + 1 < program->points && exponent(&p[i]) < fmin(hardly, most / 2); i++)
         p[i].is_start = true;
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < program->points; i++)
         if (p[i].is_start)
-            *start = *start > 0 ? fmin(*start, p[i].cost) : p[i].cost;
+            program->start = program->start > 0 ? fmin(program->start, p[i].cost) : p[i].cost;
 }
 
 static enum br_status check_growth(const struct br_work_precision *w, const struct member *m,
-                                   const struct br_work_point *p, size_t count,
-                                   struct br_error *err)
+                                   const struct br_work_program *program, struct br_error *err)
 {
     static const double clearly = 0.9;
-    const struct br_work_point *last = p + count - 1;
-    if (!count || !(last->cost + last->half < clearly * (p->cost - p->half)))
+    const struct br_work_point *p = program->point, *last = p + program->points - 1;
+    if (!program->points || !(last->cost + last->half < clearly * (p->cost - p->half)))
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
                    "%s: %s falls from %.3g at %s to %.3g%s%s at %s, expected a cost that grows "
@@ -383,10 +379,11 @@ static int by_size(const void *a, const void *b)
 
 /* The order along the points of a program. Costs are without its start, and without the sizes that
  * are mostly that; over costs, of the points of its own front. */
-static enum br_status find_order(const struct br_work_program *program,
-                                 const struct br_work_point *p, enum line what,
+static enum br_status find_order(struct br_work_program *program, enum line what,
                                  struct br_estimate *order, struct br_error *err)
 {
+    static const double least = 0.05; /* of the finest error, a floor that a forecast would miss */
+    const struct br_work_point *p = program->point;
     const size_t count = program->points;
     struct br_order_point *at = br_allocate(count + 1, sizeof *at);
     struct br_line_order found;
@@ -394,38 +391,43 @@ static enum br_status find_order(const struct br_work_program *program,
     if (!at)
         return br_no_memory(err, "the costs");
     for (size_t i = 0; i < count; i++) {
-        const bool small = p[i].is_start || p[i].cost - program->start <= 2 * p[i].half;
-        if (what == ERROR_OVER_COST ? small || !p[i].own
-                                    : isnan(p[i].z) || (small && what == COST_OVER_SIZE))
-            continue;
-        struct br_order_point *to = &at[taken++];
-        *to = (struct br_order_point){.z = p[i].z, .error = p[i].error};
         const double cost = p[i].cost - program->start;
-        if (what == ERROR_OVER_COST)
-            to->z = 1 / cost;
-        if (what == COST_OVER_SIZE) {
-            to->error = 1 / cost;
-            to->deviation = p[i].half / 2 / pow(cost, 2);
-        }
+        const bool small = p[i].is_start || cost <= 2 * p[i].half;
+        if (what == COST_OVER_SIZE && !small && !isnan(p[i].z))
+            at[taken++] = (struct br_order_point){
+                .z = p[i].z, .error = 1 / cost, .deviation = p[i].half / 2 / pow(cost, 2)};
+        else if (what == ERROR_OVER_SIZE && !isnan(p[i].z))
+            at[taken++] = (struct br_order_point){.z = p[i].z, .error = p[i].error};
+        else if (what == ERROR_OVER_COST && !small && p[i].own)
+            at[taken++] = (struct br_order_point){.z = 1 / cost, .error = p[i].error};
     }
     qsort(at, taken, sizeof *at, by_size);
     const enum br_status status = br_line_order_find(at, taken, &found, err);
     *order = br_order_determined(&found.order) ? found.order : (struct br_estimate){NAN, NAN, NAN};
+    for (size_t i = 0; i < count && !status && what == COST_OVER_SIZE; i++)
+        for (size_t k = found.first; k < taken && k <= found.last; k++)
+            if (k == found.outlier && at[k].z == p[i].z)
+                strcpy(program->odd, p[i].label);
+    if (!status && what == ERROR_OVER_SIZE && isfinite(found.order.value)) {
+        const enum br_flag flag = br_line_order_flag(&found, at, taken - 1);
+        program->stalls = found.floor > least * at[taken - 1].error ||
+                          (flag != BR_FLAG_NONE && flag != BR_FLAG_OUTLIER);
+    }
     free(at);
     return status;
 }
 
 /* What the wanted error costs, if the order of the error and the growth of the cost stay. */
 static void foresee(struct br_work_program *p, const struct br_numbers *n,
-                    const struct br_work_point *finest, const struct br_estimate *order)
+                    const struct br_estimate *order)
 {
     static const double most = 100; /* times finer: nobody knows more */
+    const struct br_work_point *finest = &p->point[p->points - 1];
     const double next = pow(10, ceil(log10(finest->error)) - 1);
     p->wanted = finest->error > 1e-6 ? 1e-6 : next;
     if (!(pow(finest->error / p->wanted, 1 / order->value) <= most))
         p->wanted = next;
     const double less = finest->error / p->wanted, finer = pow(less, 1 / order->value);
-    p->needed = (struct br_estimate){NAN, NAN, NAN};
     if (!(finer <= most && p->growth.low > 0))
         return;
     const struct br_resolution_column *c = n->column[p->axis];
@@ -437,26 +439,23 @@ static void foresee(struct br_work_program *p, const struct br_numbers *n,
     snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
 }
 
-static enum br_status study_program(struct br_work_precision *w, size_t program,
-                                    const struct member *m, struct br_error *err)
+static enum br_status study_program(struct br_work_program *p, const struct br_numbers *n,
+                                    struct br_error *err)
 {
-    struct br_work_program *p = &w->program[program];
-    struct br_work_point *at = w->point;
     struct br_estimate order, over;
-    while (at < w->point + w->points && at->program != program)
-        at++;
-    if (find_order(p, at, COST_OVER_SIZE, &p->growth, err) ||
-        find_order(p, at, ERROR_OVER_SIZE, &order, err) ||
-        find_order(p, at, ERROR_OVER_COST, &over, err))
+    if (find_order(p, COST_OVER_SIZE, &p->growth, err) ||
+        find_order(p, ERROR_OVER_SIZE, &order, err) || find_order(p, ERROR_OVER_COST, &over, err))
         return err->status;
+    if (p->stalls)
+        over = order = (struct br_estimate){NAN, NAN, NAN};
     p->tenth = (struct br_estimate){pow(10, 1 / over.value), pow(10, 1 / over.high),
                                     pow(10, 1 / over.low)};
-    for (size_t i = 0; i < p->points && at[i].is_start; i++)
-        strcpy(p->starts, at[i].label);
+    for (size_t i = 0; i < p->points && p->point[i].is_start; i++)
+        strcpy(p->starts, p->point[i].label);
     p->needed = (struct br_estimate){NAN, NAN, NAN};
     p->wanted = NAN;
     if (p->points)
-        foresee(p, m->source->numbers, &at[p->points - 1], &order);
+        foresee(p, n, &order);
     return BR_OK;
 }
 
@@ -464,12 +463,10 @@ static enum br_status study_program(struct br_work_precision *w, size_t program,
 
 static const char *name_cost(const struct members *all)
 {
-    static const char *const names[] = {"processor time", "wall time",  "time",
-                                        "dofs",           "iterations", "peak memory"};
     enum br_cost kind = all->list->kind;
     for (size_t i = 0; i < all->count; i++) /* a column may not say which time it has */
         kind = all->list[i].kind == BR_COST_TIME ? BR_COST_TIME : kind;
-    return kind == BR_COSTS ? all->cost : names[kind];
+    return kind == BR_COSTS ? all->cost : br_costs[kind].name;
 }
 
 static enum br_status fill(struct br_work_precision *w, const struct members *all,
@@ -477,7 +474,7 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
 {
     size_t rows = 0;
     for (size_t i = 0; i < all->count; i++)
-        rows += all->list[i].source->numbers->rows;
+        rows += all->list[i].source->numbers.rows;
     w->program = br_allocate(all->count, sizeof *w->program);
     w->point = br_allocate(rows + 1, sizeof *w->point);
     if (!w->program || !w->point)
@@ -486,15 +483,14 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
     w->cost_unit = all->list->unit;
     w->is_time = all->list->kind <= BR_COST_TIME;
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
-        struct br_work_point *first = w->point + w->points;
+        struct br_work_program *p = &w->program[w->programs];
         take_points(w, m);
-        const size_t count = w->points - (size_t)(first - w->point);
-        if (w->program[w->programs - 1].axis == BR_AXES)
+        if (p->axis == BR_AXES)
             continue;
-        if (check_growth(w, m, first, count, err))
+        if (check_growth(w, m, p, err))
             return err->status;
         if (w->is_time)
-            find_starts(first, count, &w->program[w->programs - 1].start);
+            find_starts(p);
     }
     if (!w->points)
         return br_fail(err, BR_NOT_FINITE,
@@ -502,7 +498,7 @@ static enum br_status fill(struct br_work_precision *w, const struct members *al
                        w->program->failure);
     br_work_front(w->point, w->points);
     for (size_t i = 0; i < w->programs; i++)
-        if (study_program(w, i, &all->list[i], err))
+        if (study_program(&w->program[i], &all->list[i].source->numbers, err))
             return err->status;
     return BR_OK;
 }
@@ -514,7 +510,7 @@ static enum br_status find_all(struct members *all, struct br_work_precision *wo
     const struct member *first = all->list;
     char name[NAME];
     err->status = BR_OK;
-    for (size_t i = 0; i < first->source->numbers->quantities; i++)
+    for (size_t i = 0; i < first->source->numbers.quantities; i++)
         if (has(first, i, name) && all_measure(all, name, &works[*count], err) && !err->status &&
             fill(&works[(*count)++], all, err))
             return err->status;
@@ -526,12 +522,19 @@ enum br_status br_work_find(const struct br_work_source *source, size_t sources,
 {
     struct members all = {.cost = cost};
     *count = 0;
-    *works = br_allocate(source->numbers->quantities + 1, sizeof **works);
+    *works = br_allocate(source->numbers.quantities + 1, sizeof **works);
     bool failed = !*works && br_no_memory(err, "the programs");
     failed = failed || list_members(source, sources, &all, err) || choose_cost(&all, err) ||
              find_all(&all, *works, count, err);
     free(all.list);
     return failed ? err->status : BR_OK;
+}
+
+void br_work_sources_clear(struct br_work_source *source, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        br_numbers_clear(&source[i].numbers);
+    free(source);
 }
 
 void br_work_clear(struct br_work_precision *works, size_t count)

@@ -33,16 +33,14 @@ void br_work_front(struct br_work_point *point, size_t count);
  * end. */
 size_t br_work_next(const struct br_work_point *point, size_t count, size_t last);
 
-/* Whether the scatter of the clock may change which of two costs is less. */
-bool br_work_ties(const struct br_work_point *a, const struct br_work_point *b);
-
 /* ---- of the numbers of programs ---- */
 
 struct br_work_source {
     char name[300];
-    const char *path; /* for messages; borrowed, as the numbers */
-    const struct br_numbers *numbers;
+    const char *path; /* for messages; borrowed */
+    struct br_numbers numbers;
 };
+void br_work_sources_clear(struct br_work_source *source, size_t count); /* frees the list, too */
 
 /* Names sources by their paths: "fd" of "programs/fd.yaml", but the whole path where two would have
  * one name. */
@@ -50,18 +48,21 @@ void br_work_name_sources(struct br_work_source *source, size_t count);
 
 /* Numbers may be NaN: not known. */
 struct br_work_program {
-    char name[400];            /* "fd", "table [method = P1]" */
-    enum br_axis axis;         /* along which it is refined alone; BR_AXES: there is none */
-    struct br_estimate growth; /* the cost grows as the size to the power -growth */
-    struct br_estimate tenth;  /* a tenth of the error costs so many times as much */
-    double wanted;             /* 1e-6, or the next power of ten that it does not reach */
-    struct br_estimate needed; /* what that costs, if both orders stay, */
-    char at[64];               /* and its size, "n = 1024" */
-    double start;              /* of the program, part of each of its costs */
-    char starts[BR_CELL_NAME]; /* up to this size the cost is mostly the start; "": nowhere */
-    size_t points, failed;     /* runs with error and cost; without */
-    char first[BR_CELL_NAME];  /* the first that failed, */
-    const char *failure;       /* and why; borrowed */
+    char name[400];              /* "fd", "table [method = P1]" */
+    enum br_axis axis;           /* along which it is refined alone; BR_AXES: there is none */
+    struct br_estimate growth;   /* the cost grows as the size to the power -growth */
+    struct br_estimate tenth;    /* a tenth of the error costs so many times as much */
+    double wanted;               /* 1e-6, or the next power of ten that it does not reach */
+    struct br_estimate needed;   /* what that costs, if both orders stay, */
+    char at[64];                 /* and its size, "n = 1024" */
+    double start;                /* of the program, part of each of its costs */
+    char starts[BR_CELL_NAME];   /* up to this size the cost is mostly the start; "": nowhere */
+    char odd[BR_CELL_NAME];      /* the cost there is no part of the growth; "": all are */
+    bool stalls;                 /* the finest errors no longer fall: no forecast */
+    struct br_work_point *point; /* from coarse to fine; borrowed */
+    size_t points, failed;       /* runs with error and cost; without */
+    char first[BR_CELL_NAME];    /* the first that failed, */
+    const char *failure;         /* and why; borrowed */
 };
 
 /* One quantity of all programs. */

@@ -17,10 +17,10 @@ static void add_point(struct br_series *s, const struct br_work_point *p)
  * each program's own best. */
 static void add_work(struct br_figure *f, const struct br_work_precision *w)
 {
-    char text[MARKUP], label[96];
-    snprintf(label, sizeof label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
-             *w->cost_unit ? ", " : "", w->cost_unit);
-    struct br_panel *panel = br_panel_add(f, label, "");
+    char text[MARKUP];
+    struct br_panel *panel = br_panel_add(f, "", "");
+    BR_SAY(panel->x_label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
+           *w->cost_unit ? ", " : "", w->cost_unit);
     panel->log_x = panel->log_y = true;
     BR_SAY(panel->y_label, "error %.50s%s%.20s",
            br_quoted(text, MARKUP, &br_for_markup, w->quantity), w->unit ? ", " : "",
@@ -35,13 +35,12 @@ static void add_work(struct br_figure *f, const struct br_work_precision *w)
             add_point(others, &w->point[i]);
     }
     br_series_stairs(front);
-    for (size_t program = 0; program < w->programs; program++) {
+    for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
         struct br_series *s =
-            br_series_add(f, BR_PEN_CURVE, "%s",
-                          br_quoted(text, MARKUP, &br_for_markup, w->program[program].name));
-        for (size_t i = 0; i < w->points; i++)
-            if (w->point[i].program == program && w->point[i].own)
-                add_point(s, &w->point[i]);
+            br_series_add(f, BR_PEN_CURVE, "%s", br_quoted(text, MARKUP, &br_for_markup, p->name));
+        for (size_t i = 0; i < p->points; i++)
+            if (p->point[i].own)
+                add_point(s, &p->point[i]);
         br_series_stairs(s);
     }
 }

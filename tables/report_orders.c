@@ -286,7 +286,8 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
     const enum br_axis axis = of->line[0].axis;
     /* Of three values, whose p is all that is known. */
     if (of->lines == 1 && isnan(of->answer[axis].order.value) && !o->numbers->assumed &&
-        limit->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->value.low))
+        limit->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->value.low) &&
+        isfinite(g->order))
         say_meaning(d, o, of, axis, g->order);
 }
 

@@ -25,20 +25,26 @@ static const char *power_text(double power, char text[TEXT])
     return text;
 }
 
+static const char *tie_text(const struct br_work_precision *w)
+{
+    return w->is_time ? "alike by the clock" : "equal";
+}
+
 /* ---- the cheapest ---- */
 
 /* The two cheapest programs to an error; `points`: there is none. */
 struct cheapest {
     size_t best, next;
-    bool tied;
+    bool tied; /* the scatter of the clock may change which one is less */
 };
 
 static struct cheapest find_cheapest(const struct br_work_precision *w, double target)
 {
     struct cheapest c = {.best = br_work_cheapest(w->point, w->points, target, SIZE_MAX, SIZE_MAX)};
-    const struct br_work_point *p = w->point;
-    c.next = br_work_cheapest(p, w->points, target, SIZE_MAX, p[c.best].program);
-    c.tied = c.next < w->points && br_work_ties(&p[c.best], &p[c.next]);
+    const struct br_work_point *a = &w->point[c.best];
+    c.next = br_work_cheapest(w->point, w->points, target, SIZE_MAX, a->program);
+    const struct br_work_point *b = &w->point[c.next];
+    c.tied = c.next < w->points && fabs(a->cost - b->cost) <= hypot(a->half, b->half);
     return c;
 }
 
@@ -47,11 +53,11 @@ static void answer_digit(struct br_document *d, const struct br_work_precision *
 {
     const struct cheapest c = find_cheapest(w, target);
     const struct br_work_point *best = &w->point[c.best], *next = &w->point[c.next];
-    const char *tie = w->is_time ? ", alike by the clock" : ", equal";
     char power[TEXT], cost[TEXT], other[TEXT];
-    br_put_answer(d, "%s%s to %s%s: %s, %s, %s", several ? w->quantity : "",
-                  several ? ": cheapest" : "Cheapest", power_text(target, power), c.tied ? tie : "",
-                  w->program[best->program].name, best->label, cost_text(w, best->cost, cost));
+    br_put_answer(d, "%s%s to %s%s%s: %s, %s, %s", several ? w->quantity : "",
+                  several ? ": cheapest" : "Cheapest", power_text(target, power),
+                  c.tied ? ", " : "", c.tied ? tie_text(w) : "", w->program[best->program].name,
+                  best->label, cost_text(w, best->cost, cost));
     if (c.next < w->points)
         br_put_more(d, "; %s: %s, %s%s%s.", c.tied ? "and" : "next", w->program[next->program].name,
                     c.tied ? next->label : "", c.tied ? ", " : "", cost_text(w, next->cost, other));
@@ -69,19 +75,19 @@ static void answer_digits(struct br_document *d, const struct br_work_precision 
         answer_digit(d, w, works > 1, target[i]);
 }
 
+/* next: the cheapest of the other programs; there may be none. */
 static void put_point(struct br_document *d, const struct br_work_precision *w, size_t i, bool next)
 {
     const struct br_work_point *p = &w->point[i < w->points ? i : 0];
+    const char *prefix = next ? "next_" : "";
     br_put_blank(d, i >= w->points);
     BR_PUT(d, br_text(w->program[p->program].name), .key = next ? "next" : "program");
-    BR_PUT(d, br_text(p->label), .key = next ? "next_size" : "size", .heading = "size");
+    BR_PUT(d, br_text(p->label), .key = br_format(d, "%ssize", prefix), .heading = "size");
     if (!next)
         BR_PUT(d, br_number(p->error), .key = "error", .unit = w->unit, .format = "%.2e");
-    BR_PUT(d, br_number(p->cost), .key = next ? "next_cost" : "cost", .heading = w->cost,
-           .unit = w->cost_unit);
-    if (i < w->points)
-        br_put_shown(d, *w->cost_unit ? "%.3g" : "%.8g", p->cost);
-    br_hide(d, next ? "next_half" : "half", w->cost_unit, br_number(p->half));
+    BR_PUT(d, br_number(p->cost), .key = br_format(d, "%scost", prefix), .heading = w->cost,
+           .unit = w->cost_unit, .format = *w->cost_unit ? "%.3g" : "%.8g");
+    br_hide(d, br_format(d, "%shalf", prefix), w->cost_unit, br_number(p->half));
     if (!next)
         BR_PUT(d, br_text(p->is_start ? "mostly start" : NULL), .key = "remark",
                .flags = BR_VARIES);
@@ -102,11 +108,8 @@ static void put_digits(struct br_document *d, const struct br_work_precision *w)
         BR_PUT(d, br_number(target[i]), .key = "to_error", .heading = "to error", .format = "%.0e");
         put_point(d, w, c.best, false);
         put_point(d, w, c.next, true);
-        BR_PUT(d,
-               br_text(!c.tied      ? NULL
-                       : w->is_time ? "alike by the clock"
-                                    : "equal"),
-               .key = "tie", .flags = ties ? 0 : BR_FILES_ONLY);
+        BR_PUT(d, br_text(c.tied ? tie_text(w) : NULL), .key = "tie",
+               .flags = ties ? 0 : BR_FILES_ONLY);
     }
 }
 
@@ -122,23 +125,19 @@ static void answer_program(struct br_document *d, const struct br_work_precision
                            const struct br_work_program *p)
 {
     char text[2 * TEXT], power[TEXT];
-    const char *between = ":";
-    if (isnan(p->growth.value) && isnan(p->tenth.value) && isnan(p->needed.value))
+    const bool grows = isfinite(p->growth.value), tenth = isfinite(p->tenth.value);
+    if (!grows && !tenth && isnan(p->needed.value))
         return;
-    br_put_answer(d, "%s", p->name);
-    if (isfinite(p->growth.value)) {
-        br_put_more(d, "%s %s grows like %s^-%s", between, w->cost, br_axis_letters[p->axis],
+    br_put_answer(d, "%s:", p->name);
+    if (grows)
+        br_put_more(d, " %s grows like %s^-%s", w->cost, br_axis_letters[p->axis],
                     br_order_text(&p->growth, text, TEXT));
-        between = ",";
-    }
-    if (isfinite(p->tenth.value)) {
-        br_put_more(d, "%s a tenth of the error costs %s times as much", between,
+    if (tenth)
+        br_put_more(d, "%s a tenth of the error costs %s times as much", grows ? "," : "",
                     times_text(&p->tenth, text));
-        between = ",";
-    }
     if (isfinite(p->needed.value))
-        br_put_more(d, "%s %s would cost %s %s (%s)", between, power_text(p->wanted, power),
-                    br_interval_text(&p->needed, text, sizeof text),
+        br_put_more(d, "%s %s would cost %s %s (%s)", grows || tenth ? "," : "",
+                    power_text(p->wanted, power), br_interval_text(&p->needed, text, sizeof text),
                     *w->cost_unit ? w->cost_unit : w->cost, p->at);
     br_put_more(d, ".");
 }
@@ -175,6 +174,13 @@ static void say_troubles(struct br_document *d, const struct br_work_precision *
         if (*p->starts)
             br_put_answer(d, "%s: up to %s its %s is mostly its start, %s.", p->name, p->starts,
                           w->cost, cost_text(w, p->start, cost));
+        if (*p->odd)
+            br_put_answer(d,
+                          "%s: the %s at %s is far from the line of the others: no part of the "
+                          "growth.",
+                          p->name, w->cost, p->odd);
+        if (p->stalls)
+            br_put_answer(d, "%s: its finest errors no longer fall: no forecast.", p->name);
     }
 }
 
@@ -213,12 +219,11 @@ void br_report_work(const struct br_work_precision *works, size_t count, const c
     br_hide_fact(d, br_text(works->cost), NULL, "cost");
     br_hide_fact(d, br_text(works->cost_unit), NULL, "cost_unit");
     if (machine)
-        br_put_note(
-            d,
-            "Times of programs that were run: medians of runs after one that warms up, "
-            "until they are known to 5 %% or have taken 10 s, one run at a time, without the "
-            "time of a process that does nothing. On %s.",
-            machine);
+        br_put_note(d,
+                    "Times of programs that were run: medians of runs after one that warms up, "
+                    "until they are known to 5 %% or have taken 10 s, one run at a time, without "
+                    "the time of a process that does nothing. On %s.",
+                    machine);
     br_put_note(d,
                 "Alike by the clock: the scatter of the times may change which one is less. A time "
                 "that was read once is known to 10 %%.");

@@ -1471,7 +1471,7 @@ static const struct planted_bug planted_bugs[] = {
      "return a->cost < b->cost ||", "return a->cost > b->cost ||"},
     {"cost_without_its_unit", "printed", "orders/work.c", "golden trade_programs",
      "row->number[m->cost] * m->factor;", "row->number[m->cost];"},
-    {"ties_are_decided", "interval", "orders/work.c", "golden trade_programs",
+    {"ties_are_decided", "interval", "tables/report_work.c", "golden trade_programs",
      "<= hypot(a->half, b->half)", "<= 0"},
     {"starts_count_as_costs", "interval", "orders/work.c", "golden trade_programs",
      "const double cost = p[i].cost - program->start;", "const double cost = p[i].cost;"},

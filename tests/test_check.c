@@ -306,10 +306,19 @@ TEST(test_comparison)
     *now = expected;
     *first = sound;
     now->tolerance = first->expected.tolerance = 0; /* a least order: a higher one is no harm */
+    const double z = m.check.cases[0].point[m.check.cases[0].points - 1].z; /* of one error */
     first->order.value -= 1;
+    first->constant = sound.constant * z;
     compare(&m, &old, false, BR_NOTE, "made space l2 axial: order");
     first->order.value += 1.1;
+    first->constant = sound.constant * pow(z, -0.1);
     compare(&m, &old, false, BR_WARNING, "made space l2 axial: order");
+    *first = sound;
+    first->expected.tolerance = 0;
+    first->constant = sound.constant / 10; /* the errors have grown, whatever their order */
+    compare(&m, &old, false, BR_SERIOUS, "made space l2 axial: constant");
+    first->constant = sound.constant * 10;
+    compare(&m, &old, false, BR_NOTE, "made space l2 axial: constant");
     *first = sound; /* a band had an upper end */
     compare(&m, &old, false, BR_WARNING, "made space l2 axial: expectation");
     *now = expected;

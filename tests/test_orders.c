@@ -463,6 +463,15 @@ TEST(test_degrees)
         br_numbers_clear(&n);
         free(text);
     }
+    q.table = (char *)"p,drag\n1,1.5\n2,1.25\n3,1.125\n4,1.0625\n5,1.03125\n";
+    q.values = (char *)"drag"; /* values over it have a limit, but no order and no index */
+    MUST(br_orders_read(&q, &n, &err));
+    MUST(br_orders_find(&n, 0, &o, &err));
+    assert_true(o.of[0].limit.value.low < 1 && o.of[0].limit.value.high > 1);
+    assert_true(isnan(o.of[0].line[0].limits.gci.order) && o.of[0].line[0].limits.triples == 0);
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+    q.values = NULL;
     q.table = (char *)"degree,e\n0,8e-1\n1,1.01e-1\n2,1.25e-2\n3,1.56e-3\n4,1.96e-4\n";
     MUST(br_expectations_read("e: h exponential 8 +- 0.5", 0, &q.expectation, &q.expectations,
                               &err));
@@ -472,6 +481,21 @@ TEST(test_degrees)
     REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, "errors over a degree have none");
     br_numbers_clear(&n);
     free(q.expectation);
+}
+
+/* Percent of a column in percent is as many, of one without a unit a hundredth. */
+TEST(test_percent)
+{
+    struct br_orders_request q = br_orders_request_default();
+    struct br_numbers n;
+    q.path = (char *)"t.csv";
+    for (int i = 0; i < 2; i++) {
+        q.table =
+            (char *)(i ? "n,e [%]\n8,4 %\n16,1 %\n32,.25 %\n" : "n,e\n8,4 %\n16,1 %\n32,.25 %\n");
+        MUST(br_orders_read(&q, &n, &err));
+        CLOSE(n.row[1].number[0], i ? 1 : 0.01, 1e-15);
+        br_numbers_clear(&n);
+    }
 }
 
 TEST(test_kinds_of_tables)
@@ -1816,6 +1840,9 @@ TEST(test_windows)
               "the 3 finest of 5");
     window_is(drag, "h,drag\n1,1.31\n.5,1.21\n.25,1.05\n.0625,1.004\n", "drag", 0, "1/8",
               "all but 1/8");
+    window_is("h,l2\n.33333333,1\n.3333333,1.1\n.25,.5\n.125,.12\n.0625,.03\n.03125,.008\n",
+              "h,l2\n.25,.5\n.125,.12\n.0625,.03\n.03125,.008\n", NULL, 0, ".3333333",
+              "all but .3333333"); /* both are shown as 0.333333 */
     for (int i = 0; i < 5; i++)
         for (int j = 0; j < 5; j++) {
             char row[60];
@@ -1826,6 +1853,22 @@ TEST(test_windows)
         }
     window_is(grid, part, NULL, 4, NULL, "the 4 finest of 5 h and of 5 k");
     window_is(grid, part, NULL, 0, "h=1,k=1", "all but h=1,k=1");
+}
+
+/* A column with fewer sizes than the window has all of them; a long list is named whole. */
+TEST(test_names_of_windows)
+{
+    struct br_numbers n;
+    char list[700] = "2";
+    for (int i = 0; i < 150; i++)
+        strcat(list, ", 2");
+    MUST(read_window("n,e,f\n2,,1\n4,.25,.5\n8,.06,.25\n16,.02,.12\n", NULL, 4, NULL, &n));
+    assert_string_equal(n.quantity[0].window, "the 3 finest of 3");
+    assert_string_equal(n.quantity[1].window, "the 4 finest of 4");
+    br_numbers_clear(&n);
+    MUST(read_window("n,e\n2,1\n4,.25\n8,.06\n16,.02\n", NULL, 0, list, &n));
+    assert_string_equal(n.quantity->window + strlen("all but "), list);
+    br_numbers_clear(&n);
 }
 
 TEST(test_refused_windows)

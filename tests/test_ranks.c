@@ -237,7 +237,7 @@ static void test_other_files(void **state)
         const char *name, *message;
         int code;
     } rows[] = {{"other.yaml", "rank 1 was asked for other studies than rank 0", 2},
-                {"none.yaml", "rank 1: scene 'none.yaml' is no file", 2}};
+                {"none.yaml", "rank 1: 'none.yaml' is neither a file nor a bundled scene", 2}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         snprintf(
             script, sizeof script,

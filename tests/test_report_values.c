@@ -39,7 +39,7 @@ static const char *old_field(const struct br_old_check *old, enum br_method_key 
                              char buffer[BR_SETTING_USUAL])
 {
     const struct br_method method = br_method_default();
-    struct br_settings now;
+    static struct br_settings now; /* what is returned may be its */
     br_method_settings(&(struct br_meshes){0}, &method, &now);
     return br_old_setting(old, 0, BR_VERIFY_TIME, &now.row[field], buffer);
 }

@@ -393,8 +393,6 @@ static bool split(struct trade_run *r, struct br_error *err)
            (writes && write_split(r, err));
 }
 
-/* ---- the command ---- */
-
 /* ---- beside other programs ---- */
 
 /* The trials of a method as the numbers of a program: bounds of their errors, in the norm's unit.
@@ -404,8 +402,8 @@ static enum br_status make_numbers(const struct br_trade *t, const struct br_nam
 {
     static const struct br_resolution_column tolerance = {"tolerance", "tolerance", BR_AXIS_TIME,
                                                           .is_size = true};
+    const bool adaptive = method->method.scheme->adaptive;
     const struct br_norm *norm = t->request.norm;
-    const double duration = t->request.scene->duration;
     size_t rows = 0;
     for (size_t i = 0; i < t->count; i++)
         rows += t->trial[i].named == method && t->trial[i].end != BR_TRIAL_LEFT;
@@ -415,17 +413,15 @@ static enum br_status make_numbers(const struct br_trade *t, const struct br_nam
         return err->status;
     n->quantities = n->costs = 1;
     n->column[BR_AXIS_SPACE] = br_resolution_column_find("n");
-    n->column[BR_AXIS_TIME] =
-        method->method.scheme->adaptive ? &tolerance : br_resolution_column_find("k");
+    n->column[BR_AXIS_TIME] = adaptive ? &tolerance : br_resolution_column_find("k");
     struct br_numbers_row *row = n->row;
     for (const struct br_trial *trial = t->trial; trial < t->trial + t->count; trial++) {
         if (trial->named != method || trial->end == BR_TRIAL_LEFT)
             continue;
-        const double k =
-            method->method.scheme->adaptive ? trial->tolerance : duration / (double)trial->at.steps;
         row->given[BR_AXIS_SPACE] = (double)trial->at.n;
         row->z[BR_AXIS_SPACE] = 1 / (double)trial->at.n;
-        row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] = k;
+        row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] =
+            adaptive ? trial->tolerance : t->request.scene->duration / (double)trial->at.steps;
         *row->number = br_trial_bound(trial) * trial->scale;
         row->number[1] = br_trial_seconds(trial);
         row->failure = trial->failure.status ? strdup(trial->failure.message) : NULL;
@@ -451,26 +447,21 @@ static enum br_status beside(struct trade_run *r, struct br_error *err)
     for (size_t i = 0; i < r->items; i++)
         most += r->item[i].trade.methods.count;
     struct br_work_source *source = br_allocate(most, sizeof *source);
-    struct br_numbers *numbers = br_allocate(most, sizeof *numbers);
-    enum br_status status = source && numbers ? BR_OK : br_no_memory(err, "the trials");
+    enum br_status status = source ? BR_OK : br_no_memory(err, "the trials");
     for (size_t i = 0; i < r->items && !status; i++) {
         const struct br_trade *t = &r->item[i].trade;
         for (size_t m = 0; m < t->methods.count && !status; m++) {
             if (!is_shown(r, t, m))
                 continue;
-            struct br_work_source *s = &source[count];
-            s->numbers = &numbers[count++];
+            struct br_work_source *s = &source[count++];
             s->path = t->request.scene->name;
             snprintf(s->name, sizeof s->name, "%.100s %s", s->path, t->methods.list[m].name);
-            status = make_numbers(t, &t->methods.list[m], &numbers[count - 1], err);
+            status = make_numbers(t, &t->methods.list[m], &s->numbers, err);
         }
     }
     if (!status)
         status = br_trade_sources(r->options, r->session, source, count, err);
-    for (size_t i = 0; i < count; i++)
-        br_numbers_clear(&numbers[i]);
-    free(numbers);
-    free(source);
+    br_work_sources_clear(source, count);
     return status;
 }
 
@@ -478,24 +469,20 @@ static enum br_status beside(struct trade_run *r, struct br_error *err)
 static enum br_status check_programs(const struct br_options *o, size_t programs,
                                      struct br_error *err)
 {
-    static const enum br_option_id never[] = {BR_OPT_THREADS, BR_OPT_ERROR, BR_OPT_SECONDS,
-                                              BR_OPT_SPLIT, BR_OPTIONS},
-                                   of_scenes[] = {BR_OPT_N,          BR_OPT_K,
-                                                  BR_OPT_STEPS,      BR_OPT_REFERENCE,
-                                                  BR_OPT_NORM,       BR_OPT_METHODS,
-                                                  BR_OPT_TOLERANCES, BR_OPT_TIME_LIMIT,
-                                                  BR_OPT_ALL,        BR_OPT_SET,
-                                                  BR_OPTIONS},
-                                   of_programs[] = {BR_OPT_COST, BR_OPT_TRUST, BR_OPTIONS};
-    const char *name = br_first_given(o, programs ? never : of_programs);
-    if (name && !programs)
-        return br_fail(err, BR_BAD_INPUT,
-                       "--%s: found scenes alone, expected a study file or a table", name);
-    if (name && strcmp(name, "threads") == 0)
-        return br_fail(err, BR_BAD_INPUT, "--threads: runs are timed one at a time");
-    if (!name && programs == o->words)
-        name = br_first_given(o, of_scenes);
-    return name ? br_fail(err, BR_BAD_INPUT, "--%s: programs do not use it", name) : BR_OK;
+    enum { OF_SCENES = 10 }; /* scenes beside programs use them */
+    static const enum br_option_id of_programs[] = {BR_OPT_COST, BR_OPT_TRUST, BR_OPTIONS};
+    static const enum br_option_id unused[] = {
+        BR_OPT_N,       BR_OPT_K,          BR_OPT_STEPS,      BR_OPT_REFERENCE, BR_OPT_NORM,
+        BR_OPT_METHODS, BR_OPT_TOLERANCES, BR_OPT_TIME_LIMIT, BR_OPT_ALL,       BR_OPT_SET,
+        BR_OPT_THREADS, BR_OPT_ERROR,      BR_OPT_SECONDS,    BR_OPT_SPLIT,     BR_OPTIONS};
+    const size_t from = programs < o->words ? OF_SCENES : 0;
+    const char *name = br_first_given(o, programs ? unused + from : of_programs);
+    return !name       ? BR_OK
+           : !programs ? br_fail(err, BR_BAD_INPUT,
+                                 "--%s: found scenes alone, expected a study file or a table", name)
+           : strcmp(name, "threads") == 0
+               ? br_fail(err, BR_BAD_INPUT, "--threads: runs are timed one at a time")
+               : br_fail(err, BR_BAD_INPUT, "--%s: programs do not use it", name);
 }
 
 static bool trade(struct trade_run *r, struct br_error *err)

@@ -98,6 +98,7 @@ struct br_case {
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */
     double constant;  /* the largest of the finest five used points'; NaN: none */
     const char *open; /* why there is no verdict, and what would show an order; NULL; borrowed */
+    bool of_degree;   /* z is one over a degree and one: there is no order */
     bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's
                    */
     double margin; /* from the interval to the nearer end of the band; < 0: outside */

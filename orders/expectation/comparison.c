@@ -141,6 +141,18 @@ static const char *say_expectation(const struct br_expectation *e, char text[160
     return text;
 }
 
+/* The constant, as the baseline has it. That of a least order is of the observed one: it is taken
+ * to the baseline's order where the finest error is the same. */
+static double constant_of(const struct br_case *c, double shift)
+{
+    size_t last = c->points;
+    while (last > 0 && !c->point[last - 1].used)
+        last--;
+    return c->expected.tolerance == 0 && last && isfinite(shift)
+               ? c->constant * pow(c->point[last - 1].z, shift)
+               : c->constant;
+}
+
 static void compare_known(struct br_comparison *out, const char *subject, const struct br_case *c,
                           const struct br_case *old)
 {
@@ -154,10 +166,11 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
     enum br_severity order = isnan(old->order.value) && isnan(c->order.value)
                                  ? BR_SAME
                                  : grade(fabs(shift) / tolerance, order_steps);
-    enum br_severity constant = grade(factor(old->constant, c->constant), constant_steps);
+    const double now_is = constant_of(c, shift);
+    enum br_severity constant = grade(factor(old->constant, now_is), constant_steps);
     if (verdict == BR_NOTE || (e->tolerance == 0 && shift > 0)) /* it has not become worse */
         order = order > BR_NOTE ? BR_NOTE : order;
-    if (verdict == BR_NOTE || e->tolerance == 0) /* it is that of the observed order */
+    if (verdict == BR_NOTE || (e->tolerance == 0 && now_is < old->constant))
         constant = constant > BR_NOTE ? BR_NOTE : constant;
     add(out, subject, "verdict", NAN, NAN, verdict, "%s before, %s now",
         br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
@@ -167,8 +180,8 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
     add(out, subject, "order", old->order.value, c->order.value, order,
         isnan(shift) ? "the baseline or this check has no order" : "%+.2g of a tolerance of %.2g",
         shift, tolerance);
-    add(out, subject, "constant", old->constant, c->constant, constant, "%s",
-        say_constant(old->constant, c->constant, shown));
+    add(out, subject, "constant", old->constant, now_is, constant, "%s",
+        say_constant(old->constant, now_is, shown));
 }
 
 /* Compares cases, and reports earlier ones that are missing now. NULL: the scene is missing now, or

@@ -76,7 +76,8 @@ static bool of_observed(const struct br_case *c)
 
 static void find_constants(struct br_case *c)
 {
-    const double order = of_observed(c) ? c->order.value : c->expected.order;
+    const bool none = isnan(c->order.value) && isfinite(c->factor.value); /* exponential */
+    const double order = of_observed(c) && !none ? c->order.value : c->expected.order;
     size_t finest = 0;
     c->constant = NAN;
     for (size_t i = c->points; i-- > 0;) {
@@ -434,6 +435,14 @@ static bool falls_by_two(const struct br_case *c, double low, double high)
     return rates >= 2 && c->expected.highest > c->expected.order;
 }
 
+/* "one more of 1/h" */
+static const char *one_more(const struct br_case *c)
+{
+    return c->of_degree                ? "each degree"
+           : c->kind == BR_VERIFY_TIME ? "one more of 1/k"
+                                       : "one more of 1/h";
+}
+
 /* Exponential convergence has no order, and an order is no such convergence. */
 static void decide_factor(struct br_case *c)
 {
@@ -445,9 +454,11 @@ static void decide_factor(struct br_case *c)
         conclude(c, BR_PASS, "%s", "");
     else if (isfinite(f->value))
         conclude(c, f->high < low || f->low > high ? BR_FAIL : BR_INCONCLUSIVE,
-                 "one more of 1/%s divides the errors by %s, expected %s",
-                 c->kind == BR_VERIFY_TIME ? "k" : "h", br_order_text(f, text, sizeof text),
-                 band_text(&c->expected, band));
+                 "%s divides the errors by %s, expected %s", one_more(c),
+                 br_order_text(f, text, sizeof text), band_text(&c->expected, band));
+    else if (c->of_degree)
+        conclude(c, br_order_determined(&c->order) ? BR_FAIL : BR_INCONCLUSIVE, "%s",
+                 "the errors do not fall exponentially");
     else
         conclude(c, br_order_determined(&c->order) ? BR_FAIL : BR_INCONCLUSIVE,
                  "the errors do not fall exponentially; their order is %s",
@@ -466,6 +477,16 @@ static void note_two(struct br_case *c)
         }
     br_append(c->note, sizeof c->note, ", fall from %g to %g, as those of a sum of two powers do",
               c->expected.highest, c->expected.order);
+}
+
+/* Whether the two finest errors that are used show at least the least order that is expected. */
+static bool is_fast(const struct br_case *c)
+{
+    size_t last = c->points - 1;
+    while (last > 0 && !c->point[last].used)
+        last--;
+    return isinf(br_expectation_high(&c->expected)) &&
+           rate_to(c, last) >= br_expectation_low(&c->expected);
 }
 
 static void decide_order(struct br_case *c)
@@ -489,16 +510,16 @@ static void decide_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
-    } else if (first < last && last <= high)
+    } else if (c->factor.low > 1 && is_fast(c))
+        conclude(c, BR_PASS, "%s", ""); /* exponential: faster than any order */
+    else if (first < last && last <= high)
         conclude(c, BR_INCONCLUSIVE,
                  "the orders from size to size rise to %.2f: finer grids would show "
                  "whether they stop there",
                  last);
     else if (isfinite(c->factor.value))
-        conclude(c, BR_FAIL,
-                 "the errors fall exponentially, by no order: one more of 1/%s divides them by %s",
-                 c->kind == BR_VERIFY_TIME ? "k" : "h",
-                 br_order_text(&c->factor, text, sizeof text));
+        conclude(c, BR_FAIL, "the errors fall exponentially, by no order: %s divides them by %s",
+                 one_more(c), br_order_text(&c->factor, text, sizeof text));
     else
         conclude(c, BR_FAIL, "no order fits the errors, %.2e to %.2e from coarse to fine",
                  c->point[0].error, c->point[c->points - 1].error);
@@ -546,9 +567,8 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     list_left_out(c);
     if (isfinite(c->factor.value)) {
         char text[64];
-        br_append(c->note, sizeof c->note, "%sone more of 1/%s divides the errors by %s",
-                  c->note[0] ? "; " : "", c->kind == BR_VERIFY_TIME ? "k" : "h",
-                  br_order_text(&c->factor, text, sizeof text));
+        br_append(c->note, sizeof c->note, "%s%s divides the errors by %s", c->note[0] ? "; " : "",
+                  one_more(c), br_order_text(&c->factor, text, sizeof text));
     }
     note_drift(c);
     return status;

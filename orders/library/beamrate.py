@@ -273,6 +273,17 @@ def said(quantity, case):
     return f"{quantity.name}: {found}, expected {band}"
 
 
+def _axes(axes, count):
+    """As many axes to draw on as there are pictures: those that are given, or new ones."""
+    if axes is None:
+        import matplotlib.pyplot
+        axes = matplotlib.pyplot.subplots(1, count, squeeze=False, figsize=(6.4 * count, 4.8))[1]
+    axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
+    if len(axes) < count:
+        raise BadInput(f"axes: found {len(axes)}, expected a list of {count}")
+    return axes
+
+
 class Orders(_Handle):
     """Orders of numbers of any program: errors, or values whose limit is not known. See orders().
 
@@ -383,12 +394,7 @@ class Orders(_Handle):
         groups = ([errors] if errors else []) + [[q] for q in drawn if q.is_value]
         if not groups:
             raise BadInput("there are no three sizes of one line")
-        if axes is None:
-            import matplotlib.pyplot
-            axes = matplotlib.pyplot.subplots(1, len(groups), squeeze=False, figsize=(6.4 * len(groups), 4.8))[1]
-        axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
-        if len(axes) < len(groups):
-            raise BadInput(f"axes: found {len(axes)}, expected a list of {len(groups)}")
+        axes = _axes(axes, len(groups))
         for one, group in zip(axes, groups):
             (self._plot_value if group[0].is_value else self._plot_errors)(one, group)
             one.legend()
@@ -469,12 +475,7 @@ class Trade(_Handle):
         better; hollow: mostly the start of the program; grey: the front of all. Needs matplotlib. axes:
         one for each quantity. Returns them: one, or a list."""
         names = list(dict.fromkeys(row["quantity"] for row in self.runs))
-        if axes is None:
-            import matplotlib.pyplot
-            axes = matplotlib.pyplot.subplots(1, len(names), squeeze=False, figsize=(6.4 * len(names), 4.8))[1]
-        axes = list(axes.flat) if isinstance(axes, np.ndarray) else axes if isinstance(axes, list) else [axes]
-        if len(axes) < len(names):
-            raise BadInput(f"axes: found {len(axes)}, expected a list of {len(names)}")
+        axes = _axes(axes, len(names))
         for one, name in zip(axes, names):
             self._plot(one, [row for row in self.runs if row["quantity"] == name])
             one.set(xscale="log", yscale="log", xlabel=", ".join(filter(None, (self.report["cost"], self.report["cost_unit"]))), ylabel=f"error {name}")
@@ -498,6 +499,13 @@ class Trade(_Handle):
 
 
 # ---- orders of a table ----
+
+def _read(path):
+    text = Path(path).read_bytes()
+    if b"\0" in text:
+        raise BadInput(f"{path}: found a zero byte, expected text")
+    return text
+
 
 def _column(name, values):
     """The type of a column in a Table Schema (specs.frictionlessdata.io), and its fields: a number keeps
@@ -546,11 +554,9 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=Non
         _refuse(TypeError, "sizes", wrong, f"some of {', '.join(_SIZES)}")
     roles = dict(columns or {}) | {size: key for key, size in sizes.items() if isinstance(size, str)}
     if isinstance(data, (str, os.PathLike)):
-        name, text = _text("data", data), Path(data).read_bytes()
+        name, text = _text("data", data), _read(data)
         if lists := sorted(key for key in sizes if sizes[key] is not None and key not in roles.values()):
             _refuse(TypeError, "sizes", lists, "names of columns beside a file")
-        if b"\0" in text:
-            raise BadInput(f"{data}: found a zero byte, expected text")
     else:
         name, text, values = b"table", *_as_json(data, values, sizes, roles)
     watch = (dimension, formal)
@@ -583,9 +589,7 @@ def trade(sources, *, cost=None, trust=False):
     tables = []
     for i, (name, data) in enumerate(named):
         if isinstance(data, (str, os.PathLike)):
-            text = Path(data).read_bytes()
-            if b"\0" in text:
-                raise BadInput(f"{data}: found a zero byte, expected text")
+            text = _read(data)
             study = Path(data).suffix in (".yaml", ".yml")
             if study and not trust:
                 raise BadInput(f"{data}: it may run commands: read it, then give trust=True")

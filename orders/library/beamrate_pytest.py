@@ -60,8 +60,9 @@ def _write(path, key, cases):
 
 def _differences(case, before):
     """What is serious, as `beamrate check --compare` calls it."""
-    if not abs(case["order"] - before["order"]) < (before["tolerance"] or TOLERANCE):
-        yield f"the baseline's order is {before['order']:.2f}"
+    order, was = case["order"], before["order"]  # None: there is none, as of exponential convergence
+    if (order is None) != (was is None) or (order and not abs(order - was) < (before["tolerance"] or TOLERANCE)):
+        yield f"the baseline's order is {was if was is None else format(was, '.2f')}"
     now, then = case["constant"], before["constant"]  # None: there is none
     if now and then and not 1 / MOST < now / then < MOST:
         yield f"the constant is {now / then:.3g} times the baseline's"
@@ -105,7 +106,7 @@ class Orders:
             key = f"{name}, {case.study}"
             if key in self.cases:
                 raise beamrate.BadInput(f"{key}: is checked twice in one test, expected once")
-            now = {"order": float(case.order), "tolerance": within, 
+            now = {"order": float(case.order) if math.isfinite(case.order) else None, "tolerance": within,
                    "constant": case.constant if math.isfinite(case.constant) else None}
             bad = [] if case.verdict == "PASS" else [f"{case.verdict}: {case.reason}"]
             if not bad and not self.update and key in before:

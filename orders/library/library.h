@@ -25,8 +25,7 @@ struct beamrate_orders {
 
 struct beamrate_trade {
     enum br_handle kind;
-    struct br_numbers *numbers; /* count, owned, as all below */
-    struct br_work_source *source;
+    struct br_work_source *source; /* count, owned, as all below */
     size_t count;
     struct br_work_precision *works;
     size_t quantities;

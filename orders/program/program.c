@@ -13,13 +13,17 @@
 #include "orders/program/process.h"
 #include "orders/request.h"
 
+/* Times of the processor and of the clock, with halves of their 95 % intervals, s. */
+struct times {
+    double time[2], half[2];
+};
+
 struct job {
     const struct br_orders_request *program;
     struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
     uint64_t *stamp;            /* of each row's files, when the study began; owned */
     struct br_cache *cache;
-    struct br_numbers_row start; /* of a trade: of a process that does nothing */
-    double start_half[2];        /* of its times' 95 % intervals */
+    struct times start; /* of a trade: of a process that does nothing */
 };
 
 /* ---- finished cells ---- */
@@ -99,17 +103,16 @@ static double median(double *time, size_t runs, double *half)
  * takes long, once or never. */
 static enum br_status time_runs(const struct br_orders_request *program,
                                 const struct br_command_words *words, struct br_numbers_row *row,
-                                double half[2], struct br_error *err)
+                                struct times *t, struct br_error *err)
 {
     struct br_orders_request bare = *program;
     struct br_numbers_row one = {.failure = NULL};
-    double time[2][MOST_RUNS] = {{row->seconds}, {row->wall}}, spent = row->wall;
+    double time[2][MOST_RUNS], spent = t->time[1];
     bool settled = false;
     bare.readings = 0;
     for (size_t runs = 0; runs < MOST_RUNS && spent <= longest && !settled;) {
-        const enum br_status status = br_run_command(&bare, words, &one, err);
-        if (status)
-            return status;
+        if (br_run_command(&bare, words, &one, err))
+            return err->status;
         if (one.failure) {
             br_run_failed(program, row, err, "when its time was measured: %s", one.failure);
             free(one.failure);
@@ -118,10 +121,11 @@ static enum br_status time_runs(const struct br_orders_request *program,
         time[0][runs] = one.seconds;
         time[1][runs++] = one.wall;
         spent += one.wall;
-        row->seconds = median(time[0], runs, &half[0]);
-        row->wall = median(time[1], runs, &half[1]);
-        settled = runs >= LEAST_RUNS && half[0] <= fmax(known * row->seconds, least) &&
-                  half[1] <= fmax(known * row->wall, least);
+        settled = runs >= LEAST_RUNS;
+        for (int i = 0; i < 2; i++) {
+            t->time[i] = median(time[i], runs, &t->half[i]);
+            settled &= t->half[i] <= fmax(known * t->time[i], least);
+        }
     }
     return BR_OK;
 }
@@ -140,25 +144,23 @@ static enum br_status time_start(struct job *j, struct br_error *err)
 {
     static char path[] = "/bin/true", *word[] = {path, NULL};
     const struct br_command_words words = {.word = word, .program = path};
-    j->start = (struct br_numbers_row){.seconds = 0};
-    return is_timed(j->program) && access(path, X_OK) == 0
-               ? time_runs(j->program, &words, &j->start, j->start_half, err)
-               : BR_OK;
+    struct br_numbers_row row = {.failure = NULL};
+    const bool timed = is_timed(j->program) && access(path, X_OK) == 0;
+    return timed ? time_runs(j->program, &words, &row, &j->start, err) : BR_OK;
 }
 
-/* Measures the times of a row, with the deviations of its costs (costs_of_runs). */
+/* Measures the times of a row, with the deviations of its costs. */
 static enum br_status time_row(const struct job *j, const struct br_command_words *words,
                                struct br_numbers_row *row, struct br_error *err)
 {
-    double half[2] = {scatter * row->seconds, scatter * row->wall};
-    const double taken[2] = {j->start.seconds, j->start.wall};
+    struct times t = {{row->seconds, row->wall}, {scatter * row->seconds, scatter * row->wall}};
     double *const time[2] = {&row->seconds, &row->wall};
-    if (time_runs(j->program, words, row, half, err))
+    if (time_runs(j->program, words, row, &t, err))
         return err->status;
     for (int i = 0; i < 2; i++) {
-        half[i] = hypot(half[i], j->start_half[i]);
-        *time[i] = fmax(*time[i] - taken[i], half[i]);
-        row->deviation[j->numbers->quantities + (size_t)i] = half[i] / 2;
+        const double half = hypot(t.half[i], j->start.half[i]);
+        *time[i] = fmax(t.time[i] - j->start.time[i], half);
+        row->deviation[j->numbers->quantities + (size_t)i] = half / 2;
     }
     return BR_OK;
 }
@@ -237,8 +239,6 @@ enum br_status br_program_rows(const struct br_orders_request *p, struct br_numb
     return status;
 }
 
-static const char *const costs_of_runs[] = {"cpu", "wall", "memory", "dofs"};
-
 static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
                                       struct br_error *err)
 {
@@ -276,12 +276,13 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
+    static const char *const names[] = {"cpu", "wall", "memory", "dofs"}; /* as of finish_rows */
     const size_t costs = !p->cost ? 0 : mesh && strcmp(mesh->name, "dofs") == 0 ? 4 : 3;
+    const size_t read = numbers->quantities;
     for (size_t i = 0; i < costs && !status; i++)
-        status =
-            br_numbers_add_quantity(numbers, costs_of_runs[i], i == 2 ? "B" : NULL, false, err);
-    numbers->costs = numbers->quantities >= costs && !status ? costs : 0;
-    numbers->quantities -= numbers->costs;
+        status = br_numbers_add_quantity(numbers, names[i], i == 2 ? "B" : NULL, false, err);
+    numbers->costs = numbers->quantities - read;
+    numbers->quantities = read;
     return status;
 }
 

@@ -18,11 +18,18 @@ char *br_row_place(const struct br_fields *f, size_t row, char text[32])
 static const char *unit_in(const char *text)
 {
     const char *end = text + strlen(text), *unit = end;
+    if (end > text && end[-1] == '%')
+        return end - 1;
     while (unit > text && isalpha((unsigned char)unit[-1]))
         unit--;
     return unit > text && br_is_unit(unit) && (unit[-1] == ' ' || isdigit((unsigned char)unit[-1]))
                ? unit
                : NULL;
+}
+
+static bool is_percent(const char *unit)
+{
+    return unit && *unit == '%';
 }
 
 /* The unit that all numbers of a column have in their fields; NULL: there is none. */
@@ -41,6 +48,27 @@ static const char *unit_of_all(const struct br_roles *r, size_t column)
     return all;
 }
 
+/* Whether a blank or an apostrophe of a number stands between thousands, "1 000": three digits are
+ * behind it, and one to three before it; behind a decimal mark three. */
+static bool parts_thousands(const char *text, const char *at, char mark)
+{
+    const char *first = at;
+    while (first > text && isdigit((unsigned char)first[-1]))
+        first--;
+    const bool more = first > text && strchr(" '", first[-1]);
+    const bool decimals = first > text && first[-1] == mark;
+    return at > first && at - first <= 3 && (at - first == 3 || !(more || decimals)) &&
+           strchr(" '", *at) && strspn(at + 1, "0123456789") == 3 && *text != '0';
+}
+
+/* Whether a field has the unit of all, and of the heading. Without a unit 4 % is 0.04. */
+static bool has_its_unit(const struct br_role_column *c, const char *text)
+{
+    if (!c->unit_of_fields)
+        return !c->unit || !is_percent(unit_in(text));
+    return !c->unit || strcmp(c->unit, c->unit_of_fields) == 0;
+}
+
 /* Reads a field of a column. Behind it may be the unit of all; thousands may be apart: "1 000". */
 static bool read_field(const struct br_roles *r, size_t column, const char *text,
                        struct br_field_number *n)
@@ -48,18 +76,17 @@ static bool read_field(const struct br_roles *r, size_t column, const char *text
     enum { LONGEST = 64 };
     const struct br_role_column *c = &r->column[column];
     char plain[LONGEST], *to = plain;
-    if (r->fields->is_words[column])
+    if (r->fields->is_words[column] || !has_its_unit(c, text))
         return false;
     const char *bracket = c->rates_in_brackets ? strrchr(text, '(') : NULL;
     if (!bracket && br_field_read(text, r->fields->mark, n))
         return true;
-    const size_t length = bracket
-                              ? (size_t)(bracket - text)
-                              : strlen(text) - (c->unit_of_fields ? strlen(c->unit_of_fields) : 0);
+    const char *unit = is_percent(c->unit_of_fields) ? NULL : c->unit_of_fields;
+    const size_t length =
+        bracket ? (size_t)(bracket - text) : strlen(text) - (unit ? strlen(unit) : 0);
     const char *const end = text + length;
     for (const char *at = text; at < end && length < LONGEST; at++)
-        if (!(at > text && isdigit((unsigned char)at[-1]) && strchr(" '", *at) &&
-              strspn(at + 1, "0123456789") == 3 && *text != '0'))
+        if (!parts_thousands(text, at, r->fields->mark))
             *to++ = *at;
     while (to > plain && to[-1] == ' ')
         to--;
@@ -128,7 +155,8 @@ void br_roles_read_column(struct br_roles *r, size_t column)
     c->numbers = c->words = c->gaps = 0;
     const bool powers = has_powers(r, column);
     c->unit_of_fields = unit_of_all(r, column);
-    c->unit = c->unit || !c->name ? c->unit : c->unit_of_fields;
+    if (!c->unit && c->name && !is_percent(c->unit_of_fields)) /* 5 % is 0.05 */
+        c->unit = c->unit_of_fields;
     c->is_whole = true;
     c->least = INFINITY;
     c->most = -INFINITY;
@@ -147,6 +175,8 @@ void br_roles_read_column(struct br_roles *r, size_t column)
             c->words++;
             continue;
         }
+        if (is_percent(c->unit) && is_percent(c->unit_of_fields))
+            n = (struct br_field_number){100 * n.value, 100 * n.deviation, NAN};
         if (powers && !isnan(n.of_power))
             n = (struct br_field_number){n.of_power, NAN, NAN};
         c->number[i] = n.value;

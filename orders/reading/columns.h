@@ -35,6 +35,10 @@ enum br_cost {
     BR_COST_MEMORY,
     BR_COSTS
 };
+extern const struct br_cost_row {
+    const char *words; /* that say it in headings, between blanks */
+    const char *name, *unit;
+} br_costs[BR_COSTS];
 
 /* z of a number of the column. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);

@@ -332,19 +332,17 @@ bool br_is_gap(const char *text)
                small);
 }
 
+const struct br_cost_row br_costs[BR_COSTS] = {
+    [BR_COST_CPU] = {" cpu cputime ", "processor time", "s"},
+    [BR_COST_WALL] = {" wall walltime elapsed wallclock ", "wall time", "s"},
+    [BR_COST_TIME] = {" time seconds sec secs s runtime zeit ms ", "time", "s"},
+    [BR_COST_DOFS] = {" dofs dof ndofs ndof unknowns ", "dofs", ""},
+    [BR_COST_ITERATIONS] = {" iterations iteration iters iter its nit niter ", "iterations", ""},
+    [BR_COST_MEMORY] = {" memory mem ram mb gb mib gib ", "peak memory", "MB"},
+};
+
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
 {
-    static const struct {
-        enum br_cost cost;
-        const char *words;
-    } costs[] = {
-        {BR_COST_CPU, " cpu cputime "},
-        {BR_COST_WALL, " wall walltime elapsed wallclock "},
-        {BR_COST_TIME, " time seconds sec secs s runtime zeit ms "},
-        {BR_COST_DOFS, " dofs dof ndofs ndof unknowns "},
-        {BR_COST_ITERATIONS, " iterations iteration iters iter its nit niter "},
-        {BR_COST_MEMORY, " memory mem ram mb gb mib gib "},
-    };
     static const struct {
         const char *names;
         double factor;
@@ -355,26 +353,27 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
         {" \xc2\xb5s us ", 1e-6, true},
         {" ns ", 1e-9, true},
         {" min ", 60, true},
-        {" b bytes ", 1, false},
-        {" kb ", 1e3, false},
-        {" mb ", 1e6, false},
-        {" gb ", 1e9, false},
-        {" kib ", 0x1p10, false},
-        {" mib ", 0x1p20, false},
-        {" gib ", 0x1p30, false},
+        {" h hours ", 3600, true},
+        {" b bytes ", 1e-6, false},
+        {" kb ", 1e-3, false},
+        {" mb ", 1, false},
+        {" gb ", 1e3, false},
+        {" kib ", 0x1p10 * 1e-6, false},
+        {" mib ", 0x1p20 * 1e-6, false},
+        {" gib ", 0x1p30 * 1e-6, false},
     };
-    const size_t count = sizeof costs / sizeof *costs, all = sizeof units / sizeof *units;
+    const size_t all = sizeof units / sizeof *units;
     char word[LONGEST], last[LONGEST] = "";
     bool part = false; /* "time per step" */
     enum br_cost found = BR_COSTS;
-    for (size_t i = 0; i < count && found == BR_COSTS; i++)
-        for (const char *at = name; next_word(&at, word);)
-            found = lists(costs[i].words, word) ? costs[i].cost : found;
-    for (const char *at = name; next_word(&at, word); strcpy(last, word))
+    for (const char *at = name; next_word(&at, word); strcpy(last, word)) {
         part |= lists(" per ", word);
+        for (enum br_cost i = 0; i < found; i++)
+            found = lists(br_costs[i].words, word) ? i : found;
+    }
     if (unit)
         plain(unit, last);
-    *factor = 1;
+    *factor = found == BR_COST_MEMORY ? 1e-6 : 1;
     if (found == BR_COSTS || part || (found != BR_COST_DOFS && br_kind_of(name) != BR_KIND_COST))
         return BR_COSTS;
     const bool of_time = found <= BR_COST_TIME;

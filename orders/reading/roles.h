@@ -34,8 +34,7 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
-/* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or bytes.
- */
+/* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or MB. */
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 
 /* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
@@ -107,7 +106,7 @@ struct br_table_wishes {
 
 static inline double br_odds(const struct br_role_column *c, const struct br_resolution_column *s)
 {
-    return c->odds[s - br_resolution_columns];
+    return s->is_degree ? 0 : c->odds[s - br_resolution_columns]; /* a degree has no row */
 }
 
 #define BR_NO_ROW SIZE_MAX /* no row, or no column */
