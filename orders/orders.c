@@ -181,7 +181,8 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     }
     c->used = by->used;
     c->order = (struct br_estimate){NAN, NAN, NAN};
-    c->low99 = c->high99 = NAN;
+    c->low99 = by->low99;
+    c->high99 = by->high99;
     c->law = NULL;
     snprintf(c->note, sizeof c->note, "%s", by->note);
 }

@@ -91,7 +91,8 @@ struct br_case {
     size_t points, used;
     bool may_miss; /* a point without a number is left out by name; else it fails the case */
     struct br_estimate order;
-    double low99, high99;      /* the order's 99 % interval: what lies outside is excluded */
+    double low99, high99;      /* the 99 % interval of the order, or of the factor's logarithm: what
+                                  lies outside is excluded */
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
     const char *window;        /* rows by hand, "the 3 finest of 6"; NULL: all; borrowed */

@@ -453,7 +453,7 @@ static void decide_factor(struct br_case *c)
     if (f->low >= low && f->high <= high)
         conclude(c, BR_PASS, "%s", "");
     else if (isfinite(f->value))
-        conclude(c, f->high < low || f->low > high ? BR_FAIL : BR_INCONCLUSIVE,
+        conclude(c, exp(c->high99) < low || exp(c->low99) > high ? BR_FAIL : BR_INCONCLUSIVE,
                  "%s divides the errors by %s, expected %s", one_more(c),
                  br_order_text(f, text, sizeof text), band_text(&c->expected, band));
     else if (c->of_degree)
@@ -503,7 +503,7 @@ static void decide_order(struct br_case *c)
         conclude(c, BR_PASS, "%s", "");
         if (!within)
             note_two(c);
-    } else if (c->high99 < low || c->low99 > high) {
+    } else if (isfinite(c->order.value) && (c->high99 < low || c->low99 > high)) {
         conclude(c, BR_FAIL, "the order, %s, lies %s the band, %s", text,
                  c->high99 < low ? "below" : "above", band_text(e, band));
         advise(c);

@@ -370,8 +370,10 @@ static void find_rate(struct br_mixture *all, const struct br_rows *r, double fi
 {
     const double g = found->power = all->part[0].power;
     const double unit = g * pow(r->z[r->count / 2] * finest, -g);
-    const struct br_estimate slope = br_mixture_estimate(all, NULL, NULL);
+    const struct br_estimate slope = br_mixture_estimate(all, &found->low99, &found->high99);
     found->rate = (struct br_estimate){slope.value / unit, slope.low / unit, slope.high / unit};
+    found->low99 /= unit;
+    found->high99 /= unit;
 }
 
 /* The distribution of what is left at the finest value, in the unit of the values: of a part with a

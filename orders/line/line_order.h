@@ -28,7 +28,8 @@ struct br_line_order {
     struct br_estimate order; /* the median and the 95 % interval; NaN: not known */
     struct br_estimate rate; /* of exponential convergence, which has no order: b of exp(-b n^g), */
     double power;            /* and g, with n = 1/z; NaN: it is none */
-    double low99, high99;    /* the 99 % interval: what is outside is excluded */
+    double low99, high99;    /* the 99 % interval, of the rate if there is one: what is outside is
+                                excluded */
     double law[BR_LAWS];     /* the probability of each law; all together 1, or 0 */
     struct br_estimate left; /* of differences of values: the error of the finest value, if they
                                 converge as they did; of two alone, too */
