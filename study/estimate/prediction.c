@@ -197,7 +197,7 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->study.reference_method = *s->reference;
     c->study.reference = (struct br_resolution){fine, many};
     c->study.path = true;
-    c->study.engine = (struct br_engine){br_march_studies}; /* only the first rank predicts */
+    c->study.here = true; /* only the first rank predicts */
     c->study.n = c->n;
     c->study.steps = c->steps;
     c->study.cell_method = c->method;

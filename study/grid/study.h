@@ -6,7 +6,6 @@
 
 #include "orders/axis.h"
 #include "reference/reference.h"
-#include "study/grid/engine.h"
 #include "study/grid/norms.h"
 #include "study/scene/resolution.h"
 
@@ -44,8 +43,7 @@ struct br_study {
     const size_t *steps;        /* k_count, borrowed */
     struct br_study *next_norm; /* the same study in another norm, all else being equal: measured
                                    on the same marches; NULL: none. Borrowed */
-    struct br_engine engine;    /* the same of all studies of a call; march NULL: the usual one
-                                   (engine.h) */
+    bool here;                  /* of all studies of a call: by this process (sweep.h) */
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_reference_report reference_report;

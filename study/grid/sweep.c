@@ -153,9 +153,9 @@ enum br_status br_march_studies(struct br_study *studies, size_t count, int thre
     return status;
 }
 
-static struct br_engine usual = {br_march_studies};
+static br_engine *usual = br_march_studies;
 
-void br_engine_set(struct br_engine engine)
+void br_engine_set(br_engine *engine)
 {
     usual = engine;
 }
@@ -170,9 +170,9 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
     for (size_t i = 0; i < count && !status; i++)
         if (br_study_prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
-    const struct br_engine *engine = count && studies->engine.march ? &studies->engine : &usual;
+    br_engine *const march = count && studies->here ? br_march_studies : usual;
     if (!status)
-        status = engine->march(studies, count, threads, observer, err);
+        status = march(studies, count, threads, observer, err);
     for (size_t i = 0; i < count && status; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             br_study_clear(s);

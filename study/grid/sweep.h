@@ -20,4 +20,15 @@ enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
 enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
                                  const struct br_observer *observer, struct br_error *err);
 
+/* An engine marches prepared studies (cells allocated, grids known to nest), all of a call at once;
+ * but not those that have failed already. br_march_studies is the one in this process: reference
+ * and cells side by side, as tasks. */
+typedef enum br_status br_engine(struct br_study *studies, size_t count, int threads,
+                                 const struct br_observer *observer, struct br_error *err);
+br_engine br_march_studies;
+
+/* The engine of studies that are not `here`, for the whole process: at first br_march_studies. For
+ * the main thread, before any study runs. */
+void br_engine_set(br_engine *engine);
+
 #endif

@@ -63,9 +63,6 @@ const char *br_method_field_text(const struct br_method_field *f, const struct b
 bool br_method_field_depends(const struct br_method_field *f);
 bool br_method_field_used(const struct br_method_field *f, const struct br_method *m);
 
-/* Whether a report states the value: the method uses it, or the field is quiet. */
-bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m);
-
 bool br_methods_equal(const struct br_method *a, const struct br_method *b);
 
 /* Reads one field into *m (in/out). Fails with BR_BAD_INPUT: what was found and expected, without

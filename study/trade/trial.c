@@ -156,8 +156,10 @@ static double between(double begin, double end)
     return round(1e9 * (end - begin)) / 1e9;
 }
 
-enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request *r,
-                              struct br_trial_cost *cost, struct br_error *err)
+/* Marches once, until the end or the time limit; *cost (out). Fails as the march does, with the
+ * reason in t->failure; with BR_VERDICT, where t->end is BR_TRIAL_OVER; or with BR_INTERRUPTED. */
+static enum br_status march(struct br_trial *t, const struct br_trial_request *r,
+                            struct br_trial_cost *cost, struct br_error *err)
 {
     struct clocked c = {
         .trial = t, .request = r, .every = 1 + (size_t)(between_readings / (double)t->at.n)};
@@ -199,7 +201,7 @@ static enum br_status repeat(struct br_trial *t, const struct br_trial_request *
     bool warm = false;
     for (double spent = 0;
          !status && (!warm || (least.repeats < r->repeats && spent <= r->repeat_seconds));) {
-        status = br_trial_march(t, r, &now, err);
+        status = march(t, r, &now, err);
         const double seconds = now.set_up + now.march;
         const bool counts = warm || !(seconds <= r->repeat_seconds);
         warm = true;

@@ -107,12 +107,6 @@ enum br_status br_trials_run(struct br_trial *trial, size_t count,
 /* Whether it is the same method at the same resolution. */
 bool br_trials_same(const struct br_trial *a, const struct br_trial *b);
 
-/* Marches a trial once, until its end or the time limit; *cost (out). Fails as the march does, with
- * the reason in trial->failure; with BR_VERDICT, where trial->end is BR_TRIAL_OVER; or with
- * BR_INTERRUPTED. */
-enum br_status br_trial_march(struct br_trial *trial, const struct br_trial_request *request,
-                              struct br_trial_cost *cost, struct br_error *err);
-
 /* The reference of the request, or the best reference of the scene. */
 const struct br_reference *br_trials_reference(const struct br_trial_request *request);
 
