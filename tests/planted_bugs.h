@@ -1381,7 +1381,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(s->reference_report.round_off)", "br_number(s->reference_report.seconds)"},
     {"part_of_a_count_is_taken", "option", "base/words.c", "golden refused",
      " && number == floor(number)", ""},
-    {"step_that_does_not_divide", "option", "cli/beam/run_plan.c", "golden refused",
+    {"step_that_does_not_divide", "option", "cli/beam/run.c", "golden refused",
      "if (fabs(position - nearest) <= 1e-6)", "if (fabs(position - nearest) <= 1)"},
     {"tolerance_goes_to_the_friction", "option", "study/scene/method_fields.c",
      "golden run_adaptive", "NUMBER(tolerance, tolerance, double)",

@@ -2,7 +2,6 @@
 /* Differences of successive grids, against studies of single cells. */
 
 #include "solver/scene.h"
-#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "support.h"
 

@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "study/scene/method_fields.h"
 
-extern const struct br_beam br_beam;
+extern const struct br_beam br_beam; /* topics.c */
 
 /* ---- options (option_rows.c) ---- */
 

@@ -6,7 +6,7 @@
 
 #include "base/observer.h"
 #include "study/fit/report.h"
-#include "study/grid/differences.h"
+#include "study/grid/sweep.h"
 
 /* At most; each half of the one before, unless the grid has others. */
 enum { BR_DIFFERENCE_SIZES = 12 };

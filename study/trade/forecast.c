@@ -9,17 +9,10 @@
 
 /* ---- a method ---- */
 
-static struct br_planned_march planned(const struct br_scene *scene, const struct br_trial *t,
-                                       const struct br_method *method)
-{
-    return (struct br_planned_march){
-        .scene = scene, .method = method, .n = t->at.n, .steps = t->at.steps};
-}
-
 double br_trial_work(const struct br_scene *scene, const struct br_trial *t)
 {
     const struct br_method method = br_trial_method(t);
-    const struct br_planned_march march = planned(scene, t, &method);
+    const struct br_planned_march march = br_planned(scene, &method, t->at);
     return br_march_seconds(&march);
 }
 
@@ -49,7 +42,7 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
             dearest = j;
     }
     const struct br_method method = br_trial_method(&trial[dearest]);
-    const struct br_planned_march march = planned(r->scene, &trial[dearest], &method);
+    const struct br_planned_march march = br_planned(r->scene, &method, trial[dearest].at);
     return br_observer_stops(r->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
                                           : br_march_pace(&march, &pace[i], err);
 }

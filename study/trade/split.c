@@ -330,10 +330,7 @@ static void set_share(const struct br_split *split, const struct chain *c, size_
 static void set_whole(struct br_split *split, const struct chain *c)
 {
     const struct br_study *s = &c->d->study[0][c->whole];
-    const struct br_planned_march run = {.scene = split->scene,
-                                         .method = &split->method,
-                                         .n = split->at.n,
-                                         .steps = split->at.steps};
+    const struct br_planned_march run = br_planned(split->scene, &split->method, split->at);
     split->unstable = s->cell[0].unstable;
     split->predicted_round_off = br_predict_round_off(&run);
     for (size_t m = 0; m < split->norms; m++)

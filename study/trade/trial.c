@@ -164,8 +164,7 @@ static enum br_status march(struct br_trial *t, const struct br_trial_request *r
     struct clocked c = {
         .trial = t, .request = r, .every = 1 + (size_t)(between_readings / (double)t->at.n)};
     const struct br_method method = br_trial_method(t);
-    const struct br_planned_march planned = {
-        .scene = r->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+    const struct br_planned_march planned = br_planned(r->scene, &method, t->at);
     *cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
     c.start = br_thread_seconds();

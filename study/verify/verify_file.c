@@ -221,9 +221,8 @@ static enum br_status read_method(struct study_part *b)
             br_method_field_read(&br_method_fields[i - FIELDS], b->text[i], m, &inner))
             return br_scene_pass_on(b->r, b->line[i], name_of(i), &inner);
     const char *const *text = b->text + FIELDS;
-    enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, m, &inner);
-    if (!status)
-        status = br_method_check_used(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
+    if (!br_method_read(text, BR_METHOD_IN_SCENE, m, &inner))
+        br_method_check_used(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
     return br_scene_pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
 }
 
@@ -242,13 +241,9 @@ static enum br_status read_block(struct study_part *b, const yaml_node_t *node)
          p < node->data.mapping.pairs.top && !status; p++)
         status = read_key(b, yaml_document_get_node(r->yaml.document, p->key),
                           yaml_document_get_node(r->yaml.document, p->value));
-    if (!status)
-        status = read_lists(b);
-    if (!status)
-        status = read_method(b);
-    if (!status)
-        status = check_counts(b);
-    return status ? status : make_cells(b);
+    return status || read_lists(b) || read_method(b) || check_counts(b) || make_cells(b)
+               ? r->yaml.err->status
+               : BR_OK;
 }
 
 /* What --set has set has no line in the file. */
