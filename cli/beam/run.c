@@ -309,36 +309,21 @@ static enum br_status open_files(struct scene_run *r, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-static enum br_status open_scene(struct scene_run *r, struct br_error *err)
-{
-    const struct br_options *o = r->options;
-    const bool failed = br_opened_scene_read(&r->plan.opened, r->session, o->word[0], err) ||
-                        make_plan(&r->plan, o, err);
-    return failed ? err->status : BR_OK;
-}
-
-static struct br_planned_march planned(const struct run_plan *p)
-{
-    return br_planned(&p->marched, &p->request.method,
-                      (struct br_resolution){p->request.n, p->request.steps});
-}
-
-/* Finds the warnings and the prediction before the march. */
-static enum br_status predict(struct scene_run *r, struct br_error *err)
-{
-    struct br_planned_march march = planned(&r->plan);
-    march.prediction = &r->prediction;
-    return br_check_ahead(&march, &r->warnings, err);
-}
-
+/* Finds the warnings and the prediction, too. */
 static enum br_status prepare(struct scene_run *r, struct br_error *err)
 {
-    if (open_scene(r, err) || predict(r, err) || open_files(r, err))
+    const struct br_run_request *q = &r->plan.request;
+    if (br_opened_scene_read(&r->plan.opened, r->session, r->options->word[0], err) ||
+        make_plan(&r->plan, r->options, err))
         return err->status;
     struct br_costs work = {.alone = true};
-    const struct br_planned_march one = planned(&r->plan);
+    struct br_planned_march march =
+        br_planned(&r->plan.marched, &q->method, (struct br_resolution){q->n, q->steps});
+    march.prediction = &r->prediction;
+    if (br_check_ahead(&march, &r->warnings, err) || open_files(r, err))
+        return err->status;
     br_print_warnings("", &r->warnings);
-    br_costs_add_march(&work, &one);
+    br_costs_add_march(&work, &march);
     br_session_announce(r->session, &work);
     return BR_OK;
 }

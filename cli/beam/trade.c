@@ -175,13 +175,6 @@ static enum br_status read_goal(struct trade_run *r, struct br_error *err)
     return error ? read_error(error, &r->goal.error, err) : BR_OK;
 }
 
-static enum br_status check_norm(const struct trade_run *r, struct br_error *err)
-{
-    return r->study.norms > 1
-               ? br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms)
-               : BR_OK;
-}
-
 static enum br_status read_scenes(struct trade_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
@@ -494,8 +487,11 @@ static bool trade(struct trade_run *r, struct br_error *err)
         return true;
     if (programs == r->options->words)
         return br_trade_sources(r->options, r->session, NULL, 0, err);
-    if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err) ||
-        check_norm(r, err) || check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
+    if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err))
+        return true;
+    if (r->study.norms > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
+    if (check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))

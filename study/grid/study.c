@@ -188,14 +188,11 @@ enum br_status br_study_prepare(struct br_study *s, struct br_error *err)
                        "the cells have axial elements of degree %d and the reference of degree %d, "
                        "expected the same",
                        s->method.axial_degree, s->reference_method.axial_degree);
-    const enum br_status status =
+    enum br_status status =
         s->reference_kind->nests ? check_nesting(s, err) : common_levels(s, err);
-    if (status)
-        return status;
-    enum br_status table = BR_OK;
-    for (struct br_study *norm = s; norm && !table; norm = norm->next_norm) {
+    for (struct br_study *norm = s; norm && !status; norm = norm->next_norm) {
         norm->reference = s->reference;
-        table = create_cells(norm, err);
+        status = create_cells(norm, err);
     }
-    return table;
+    return status;
 }

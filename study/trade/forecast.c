@@ -143,29 +143,8 @@ static double sum_of(const struct br_trial *trial, size_t count)
     return sum;
 }
 
-/* Leaves out a trial; returns the seconds that this saves. What the reference did for it passes on
- * to the next trial on its mesh, and to the next one of its levels. */
-static double leave(const struct forecasting *f, struct br_trial *trial, size_t count, size_t left)
-{
-    double saved = trial[left].estimated;
-    bool mesh = false, levels = false;
-    trial[left].end = BR_TRIAL_LEFT;
-    for (size_t i = left + 1; i < count && !levels; i++) {
-        const bool same = trial[i].at.steps == trial[left].at.steps;
-        if (trial[i].end == BR_TRIAL_LEFT || !on_one_mesh(&trial[i], &trial[left]) ||
-            (mesh && !same))
-            continue;
-        mesh = true;
-        levels = same;
-        saved += trial[i].estimated;
-        estimate(f, trial, i);
-        saved -= trial[i].estimated;
-    }
-    return saved;
-}
-
 /* Leaves out the dearest trials until the others take no longer than allowed; one always remains.
- */
+ * What the reference did for a trial passes on to the next ones on its mesh. */
 static void leave_out(const struct forecasting *f, struct br_trial *trial, size_t count,
                       struct br_trial_forecast *forecast)
 {
@@ -176,11 +155,14 @@ static void leave_out(const struct forecasting *f, struct br_trial *trial, size_
             if (trial[i].end != BR_TRIAL_LEFT &&
                 (dearest == count || trial[i].estimated > trial[dearest].estimated))
                 dearest = i;
-        forecast->seconds -= leave(f, trial, count, dearest);
+        trial[dearest].end = BR_TRIAL_LEFT;
+        for (size_t i = dearest + 1; i < count; i++)
+            if (on_one_mesh(&trial[i], &trial[dearest]))
+                estimate(f, trial, i);
+        forecast->seconds = sum_of(trial, count);
         forecast->planned--;
         forecast->left++;
     }
-    forecast->seconds = sum_of(trial, count); /* without the round-off of differences */
     forecast->left_seconds = all - forecast->seconds;
 }
 
