@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate trade SCENE|PROGRAM...: what a digit costs. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/quote.h"
 #include "base/words.h"
 #include "cli/beam/session.h"
 #include "cli/beam/study_request.h"
@@ -340,7 +338,7 @@ static enum br_status lay_out_split(struct trade_run *r, struct br_error *err)
     size_t steps;
     if (check_split(o, err) || br_study_request_read(o, &r->study, err) ||
         (r->study.methods.count == 0 && /* default: the first scheme */
-         br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
+         br_named_methods_read(br_time_schemes[0]->name, &r->study.methods, err)) ||
         check_used(r, true, err) || read_scenes(r, err) ||
         br_steps_read(r->study.k, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;

@@ -8,8 +8,6 @@
 #include "plots/pictures.h"
 
 struct br_named_method;
-struct br_named_methods;
-struct br_norm;
 struct br_example;
 struct br_floors;
 struct br_history_record;

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/grid/study.h"
 
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "study/scene/statement.h"
 
 size_t br_study_cells(const struct br_study *s)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes trees and evaluates them node by node over arrays of points. Nodes that do not use x are
  * computed once per call. */
-#include <math.h>
 #include <string.h>
 
 #include "study/known/expression.h"

@@ -2,8 +2,6 @@
 #include "study/run/history.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "base/words.h"

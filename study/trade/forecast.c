@@ -53,13 +53,8 @@ enum br_status br_trials_prepare_reference(const struct br_trial_request *r, voi
                                            struct br_error *err)
 {
     const struct br_reference *reference_kind = br_trials_reference(r);
-    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
-    struct br_reference_request request = {.scene = r->scene,
-                                           .levels = 1,
-                                           .lead = 1,
-                                           .stop = o->stop,
-                                           .stop_self = o->self,
-                                           .preparing = o->preparing};
+    const struct br_reference_request request = {
+        .scene = r->scene, .levels = 1, .lead = 1, .observer = r->observer};
     *self = NULL;
     return !reference_kind->create || reference_kind->nests
                ? BR_OK

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/fit/fit.h"
+#include "orders/estimate.h"
 #include "study/paper/paper.h"
 #include "tables/beam/reports.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from the errors of a study: the joint fits, contradictions in the printed table; and
  * all its facts, for programs. */
-#include <math.h>
 
 #include "solver/scene.h"
 #include "study/fit/report.h"

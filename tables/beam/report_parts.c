@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "study/fit/fit.h"
-
 void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *m,
                          const struct br_meshes *on)
 {

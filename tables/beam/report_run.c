@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "study/estimate/prediction.h"
-#include "study/fit/fit.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
 #include "tables/beam/report_parts.h"
