@@ -258,10 +258,9 @@ static enum br_status write_all(struct trade_run *r, struct br_error *err)
         }
         br_report_trade(trade[i], words, &provenance, &d[i]);
         free(words);
-        for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
-            if (br_trade_picture_applies(*p, trade[i]))
-                br_session_draw(r->session, &d[i],
-                                br_trade_draw(*p, trade[i], d[i].name, d[i].caption), (*p)->title);
+        for (const struct br_trade_picture *p = br_trade_pictures; p->name; p++)
+            br_session_draw(r->session, &d[i], br_trade_draw(p, trade[i], d[i].name, d[i].caption),
+                            p->title);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session->threads);

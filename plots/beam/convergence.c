@@ -94,11 +94,6 @@ static struct br_panel *add_panel(const struct br_report *r, int axis, struct br
     return p;
 }
 
-static bool always(const struct br_report *r)
-{
-    return r->fitted->n_count > 0 && r->fitted->k_count > 0;
-}
-
 /* "total: order in h 2.00 [1.99, 2.01], in k not measurable", and by what where it is not the
  * total's. */
 static void say_orders(const struct br_report *r, enum br_part part, char text[256])
@@ -143,12 +138,6 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
 }
 
 /* ---- the orders ---- */
-
-static bool has_orders(const struct br_report *r)
-{
-    return r->observed[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
-           r->observed[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
-}
 
 /* The errors, the fitted line, and its band. Returns the errors. */
 static const struct br_series *add_order(const struct br_observed_order *o, const char *name,
@@ -212,11 +201,6 @@ static void fill_orders(const struct br_report *r, struct br_figure *f)
             add_orders(r, axis, f);
 }
 
-static bool has_printed(const struct br_report *r)
-{
-    return always(r) && r->printed;
-}
-
 /* The hue shows whose error it is, the mark which curve it is. */
 static void add_both(const struct br_report *r, int axis, struct br_figure *f)
 {
@@ -245,6 +229,8 @@ static const char *say_mark(const struct br_report *r, int axis, size_t hue, cha
 /* Adds a key of the marks: over k they are meshes, over h time steps. */
 static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
+    if (!r->printed)
+        return;
     f->one_y = true;
     add_both(r, BR_AXIS_TIME, f);
     add_both(r, BR_AXIS_SPACE, f);
@@ -259,21 +245,17 @@ static void fill_printed(const struct br_report *r, struct br_figure *f)
     }
 }
 
-static const struct br_convergence_picture
-    over_h = {"h", "The error against the mesh size h, one curve per time step k.",
-              "Errors over the mesh size h", always, fill_h},
-    over_k = {"k", "The error against the time step k, one curve per number of elements n.",
-              "Errors over the time step k", always, fill_k},
-    orders = {"orders",
-              "The errors or differences that show the orders in h and k, the fitted line and its "
-              "95 % band.",
-              "Orders in h and k", has_orders, fill_orders},
-    printed = {"printed",
-               "The computed and the printed errors against the time step k and the mesh size h.",
-               "Errors, computed and printed", has_printed, fill_printed};
-
-const struct br_convergence_picture *const br_convergence_pictures[] = {&orders, &over_h, &over_k,
-                                                                        &printed, NULL};
+const struct br_convergence_picture br_convergence_pictures[] = {
+    {"orders",
+     "The errors or differences that show the orders in h and k, the fitted line and its 95 % band.",
+     "Orders in h and k", fill_orders},
+    {"h", "The error against the mesh size h, one curve per time step k.",
+     "Errors over the mesh size h", fill_h},
+    {"k", "The error against the time step k, one curve per number of elements n.",
+     "Errors over the time step k", fill_k},
+    {"printed", "The computed and the printed errors against the time step k and the mesh size h.",
+     "Errors, computed and printed", fill_printed},
+    {0}};
 
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *r)
