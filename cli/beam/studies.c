@@ -178,7 +178,8 @@ enum br_status br_studies_compute(struct br_studies *r, struct br_error *err)
     const struct br_observer *observer = br_progress_start("marching", r->session->quiet);
     enum br_status status = br_study_run(r->study, r->cases, threads, observer, err);
     for (struct br_study_work *w = r->work; w < end && !status; w++) {
-        w->compared = (struct br_grid_differences){w->report, norms, threads, observer};
+        w->compared = (struct br_grid_differences){
+            .report = w->report, .norms = norms, .threads = threads, .observer = observer};
         status = br_grid_differences_meshes(&w->compared, err);
     }
     for (struct br_study_work *w = r->work; w < end; w++)

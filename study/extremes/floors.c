@@ -108,9 +108,6 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
 {
     const size_t *n = f->gathered ? gathered_n : job->n ? job->n : usual_n;
     const size_t *steps = job->steps ? job->steps : f->gathered ? gathered_steps : usual_steps;
-    if (job->scenes > BR_FLOOR_SCENES)
-        return br_fail(err, BR_BAD_INPUT, "found %zu scenes, expected at most %d", job->scenes,
-                       BR_FLOOR_SCENES);
     f->scenes = job->scenes;
     for (size_t i = 0; i < f->scenes; i++)
         f->scene[i] = job->scene[i];

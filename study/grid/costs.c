@@ -174,9 +174,9 @@ void br_costs_add_study(struct br_costs *w, const struct br_study *s)
         add(w, &cell, br_cell_seconds(s, c));
     }
     const struct br_planned_march fine = reference_of(s);
-    if (s->reference_kind->create && s->reference_kind->nests)
+    if (s->reference_kind->nests)
         add(w, &fine, br_reference_seconds(s));
-    else if (s->reference_kind->create)
+    else
         add_time(w, br_reference_seconds(s));
 }
 

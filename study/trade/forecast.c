@@ -56,9 +56,7 @@ enum br_status br_trials_prepare_reference(const struct br_trial_request *r, voi
     const struct br_reference_request request = {
         .scene = r->scene, .levels = 1, .lead = 1, .observer = r->observer};
     *self = NULL;
-    return !reference_kind->create || reference_kind->nests
-               ? BR_OK
-               : reference_kind->create(self, &request, err);
+    return reference_kind->nests ? BR_OK : reference_kind->create(self, &request, err);
 }
 
 void br_trials_release_reference(const struct br_trial_request *r, void *self)
@@ -93,9 +91,9 @@ static double reference_seconds(const struct br_trial_request *r, const struct b
             mesh = false;
             levels = levels && trial[j].at.steps != at->steps;
         }
-    const double whole = s.reference_kind->create ? br_reference_seconds(&s) : 0;
+    const double whole = br_reference_seconds(&s);
     s.steps = &none;
-    const double set_up = s.reference_kind->create ? br_reference_seconds(&s) : 0;
+    const double set_up = br_reference_seconds(&s);
     return levels * (whole - set_up) + (mesh && s.reference_kind->nests) * set_up;
 }
 

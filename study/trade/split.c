@@ -363,9 +363,6 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
 {
     struct chain c = {.refining.threads = threads};
     split->reference_kind = br_reference_best(split->scene);
-    if (split->at.n < 1 || split->at.steps < 1)
-        return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
-                       split->at.n < 1 ? "n" : "the number of time steps");
     c.refining.observer = observer ? *observer : (struct br_observer){0};
     c.refining.observer.progress = NULL; /* the chain takes longer */
     enum br_status status = refine(split, &c.refining, err);

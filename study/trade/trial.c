@@ -373,10 +373,6 @@ const struct br_reference *br_trials_reference(const struct br_trial_request *r)
 static enum br_status find_errors(struct br_trial *trial, size_t count,
                                   const struct br_trial_request *request, struct br_error *err)
 {
-    const struct br_reference *reference_kind = br_trials_reference(request);
-    if (!reference_kind->create)
-        return br_fail(err, BR_BAD_INPUT, "there is no reference for this scene: %s",
-                       reference_kind->title);
     if (count == 0)
         return BR_OK;
     struct groups g = {.study = br_allocate(count, sizeof *g.study),

@@ -99,8 +99,7 @@ void br_trials_release_reference(const struct br_trial_request *request,
 
 /* Runs trials: times all, one after the other, then finds the errors of the complete ones, all at
  * once. A march that fails is a result, and a march over the limit is ended as soon as that is
- * sure. Fails with BR_BAD_INPUT (there is no reference of this scene), BR_NO_MEMORY,
- * BR_INTERRUPTED. */
+ * sure. Fails as br_study_run does. */
 enum br_status br_trials_run(struct br_trial *trial, size_t count,
                              const struct br_trial_request *request, struct br_error *err);
 
