@@ -10,7 +10,7 @@ extern const struct br_beam br_beam; /* topics.c */
 
 /* ---- options (option_rows.c) ---- */
 
-extern const struct br_words br_norm_words, br_reference_words;
+extern const struct br_words br_reference_words;
 
 /* Adds the options of the beam that a command takes behind `count` others. */
 size_t br_beam_add_options(const struct br_command *command, struct br_option row[BR_OPTIONS],

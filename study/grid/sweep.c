@@ -101,14 +101,6 @@ static bool is_fatal(const struct br_error *failure)
     return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
 }
 
-/* Whether a study succeeded. Copies its failure to all its norms. */
-static bool succeeded(struct br_study *first)
-{
-    for (struct br_study *s = first; s; s = s->next_norm)
-        s->failure = first->failure;
-    return !first->failure.status;
-}
-
 static enum br_status conclude(struct br_study_march *l, struct br_error *err)
 {
     if (l->failure.status)
@@ -120,7 +112,7 @@ static enum br_status conclude(struct br_study_march *l, struct br_error *err)
         br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
     if (is_fatal(&l->study->failure))
         return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);
-    if (!succeeded(l->study))
+    if (l->study->failure.status)
         return BR_OK;
     conclude_norms(l);
     enum br_status status = BR_OK;
@@ -173,9 +165,12 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
     br_engine *const march = count && studies->here ? br_march_studies : usual;
     if (!status)
         status = march(studies, count, threads, observer, err);
-    for (size_t i = 0; i < count && status; i++)
-        for (struct br_study *s = &studies[i]; s; s = s->next_norm)
-            br_study_clear(s);
+    for (size_t i = 0; i < count; i++)
+        for (struct br_study *s = &studies[i]; s; s = s->next_norm) {
+            s->failure = studies[i].failure;
+            if (status)
+                br_study_clear(s);
+        }
     return status;
 }
 

@@ -13,7 +13,7 @@
 #include "study/trade/trial.h"
 
 /* Targets: relative errors of 1e-2 to 1e-10. */
-enum { BR_TRADE_FIRST_DIGIT = 2, BR_TRADE_LAST_DIGIT = 10, BR_TRADE_DIGITS = 9 };
+enum { BR_TRADE_FIRST_DIGIT = 2, BR_TRADE_DIGITS = 9 };
 double br_trade_target(size_t digit); /* 0 .. BR_TRADE_DIGITS - 1 */
 
 /* The resolutions to try. Lists are borrowed; an empty one means the default. */

@@ -178,13 +178,11 @@ static enum br_status march(struct br_trial *t, const struct br_trial_request *r
     status = make_steps(&c, err);
     cost->march = between(begin, br_thread_seconds());
     cost->counts = br_march_counts(c.march);
-    cost->levels = br_march_steps_done(c.march);
-    if (!status && cost->levels < t->at.steps) {
-        const size_t others = t->at.steps - cost->levels;
-        cost->march *= (double)t->at.steps / (double)cost->levels;
+    const size_t done = br_march_steps_done(c.march), others = t->at.steps - done;
+    if (!status && others) {
+        cost->march *= (double)t->at.steps / (double)done;
         cost->counts.steps += others;
         cost->counts.stages += others * (size_t)br_time_scheme_stages(method.scheme);
-        cost->levels = t->at.steps;
     }
     br_march_free(c.march);
     return status;

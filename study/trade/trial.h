@@ -28,7 +28,6 @@ struct br_trial_cost {
     double set_up, march; /* s of the processor, one thread; NaN: it did not end */
     size_t repeats;       /* marches that were timed */
     struct br_counts counts;
-    size_t levels; /* time levels that were reached */
 };
 
 struct br_trial {
