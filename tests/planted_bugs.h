@@ -1687,7 +1687,7 @@ static const struct planted_bug planted_bugs[] = {
      "!is_there(o->descriptor, manifest_name) ||", "1 ||"},
     {"lock_of_a_removed_file", "sequence", "cli/output.c",
      "tests/test_whole test_lock_of_a_removed_file", "info.st_nlink > 0", "1"},
-    {"a_week_is_no_warning", "default", "study/estimate/resources.c", "tests/test_resources",
+    {"a_week_is_no_warning", "default", "study/estimate/warnings.c", "tests/test_resources",
      "if (days > 1)", "if (days > 7)"},
     {"limit_of_linear_elements", "index", "study/extremes/stability.c",
      "tests/test_stability test_limit_of_columns", "c->n, 1, method->axial_degree)", "c->n, 1, 1)"},

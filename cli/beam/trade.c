@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/quote.h"
+#include "base/text.h"
 #include "base/words.h"
 #include "cli/beam/session.h"
 #include "cli/beam/study_request.h"
@@ -240,6 +242,23 @@ static enum br_status run_all(struct trade_run *r, struct br_error *err)
 
 /* ---- results ---- */
 
+/* A scene and what --set has set in it, as words of a command line. Owned by the caller; NULL: out
+ * of memory. */
+static char *words_of(const struct br_session *s, const char *name)
+{
+    char *text, *set = s->set ? strdup(s->set) : NULL, *rest = set;
+    size_t size;
+    FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
+    if (out)
+        br_quote(out, &br_for_shell, name);
+    while (out && rest) {
+        fputs(" --set ", out);
+        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
+    }
+    free(set);
+    return out && fclose(out) == 0 ? text : NULL;
+}
+
 /* A report of each scene, and where there are several one of all. */
 static enum br_status write_all(struct trade_run *r, struct br_error *err)
 {
@@ -251,7 +270,7 @@ static enum br_status write_all(struct trade_run *r, struct br_error *err)
     for (size_t i = 0; i < r->items && !status; i++) {
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session->threads);
-        char *words = br_session_scene(r->session, r->options->word[i]);
+        char *words = words_of(r->session, r->options->word[i]);
         if (!words) {
             status = br_no_memory(err, "the reports");
             break;

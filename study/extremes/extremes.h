@@ -81,11 +81,17 @@ enum br_status br_floors_run(struct br_floors *floors, bool gathered,
                              const struct br_extremes_job *job, struct br_error *err);
 void br_floors_clear(struct br_floors *floors);
 
-const struct br_floor *br_floor_at(const struct br_floors *floors, size_t scene, size_t method,
-                                   size_t n, size_t k);
+static inline const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene,
+                                                 size_t method, size_t n, size_t k)
+{
+    return &f->floor[((scene * f->method.count + method) * f->n_count + n) * f->k_count + k];
+}
 
 /* The larger deviation of both fields; NaN where there is none. */
-double br_floor_deviation(const struct br_floor *floor);
+static inline double br_floor_deviation(const struct br_floor *floor)
+{
+    return br_worst(floor->deviation[BR_AXIAL], floor->deviation[BR_BENDING]);
+}
 
 /* The limit for a march's deviation: its prediction; for the first BR_FLOOR_STEPS steps of riccati
  * also 2e-11 up to n = 12800 and 1e-9 up to n = 1,000,000. */

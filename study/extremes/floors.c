@@ -318,17 +318,6 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
 
 /* ---- reading the results ---- */
 
-const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size_t method, size_t n,
-                                   size_t k)
-{
-    return &f->floor[((scene * f->method.count + method) * f->n_count + n) * f->k_count + k];
-}
-
-double br_floor_deviation(const struct br_floor *floor)
-{
-    return br_worst(floor->deviation[BR_AXIAL], floor->deviation[BR_BENDING]);
-}
-
 double br_floor_limit(const struct br_floor *f)
 {
     const bool promised = f->by->method.solver == &br_riccati && f->steps <= BR_FLOOR_STEPS;

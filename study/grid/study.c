@@ -3,42 +3,6 @@
 
 #include "study/scene/statement.h"
 
-size_t br_study_cells(const struct br_study *s)
-{
-    return s->path ? s->n_count : s->n_count * s->k_count;
-}
-
-const struct br_method *br_study_method(const struct br_study *s, size_t cell)
-{
-    return s->cell_method ? &s->cell_method[cell] : &s->method;
-}
-
-size_t br_study_row(const struct br_study *s, size_t cell)
-{
-    return s->path ? cell : cell / s->k_count;
-}
-
-struct br_resolution br_study_resolution(const struct br_study *s, size_t cell)
-{
-    return (struct br_resolution){s->n[br_study_row(s, cell)],
-                                  s->steps[s->path ? cell : cell % s->k_count]};
-}
-
-const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j)
-{
-    return &study->cell[i * study->k_count + j];
-}
-
-double br_reference_step(const struct br_study *s)
-{
-    return s->reference_kind->nests ? br_time_step(s->scene, s->reference.steps) : 0;
-}
-
-double br_reference_mesh(const struct br_study *s)
-{
-    return br_mesh_size(s->scene, s->reference.n);
-}
-
 void br_study_clear(struct br_study *study)
 {
     free(study->cell);
@@ -74,21 +38,6 @@ void br_state_study(struct br_statement *s, const struct br_study *study)
 }
 
 /* ---- over h and over k ---- */
-
-size_t br_axis_count(const struct br_study *s, int axis)
-{
-    return axis == BR_AXIS_SPACE ? s->n_count : s->k_count;
-}
-
-double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at)
-{
-    return axis == BR_AXIS_SPACE ? br_mesh_size(scene, at.n) : br_time_step(scene, at.steps);
-}
-
-size_t br_axis_cell(const struct br_study *s, int axis, size_t along, size_t at)
-{
-    return axis == BR_AXIS_SPACE ? along * s->k_count + at : at * s->k_count + along;
-}
 
 /* ---- the grid ---- */
 

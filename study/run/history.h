@@ -146,8 +146,7 @@ struct br_tip_watch {
     int direction; /* of the last slip */
 };
 
-const char *br_tip_event_word(enum br_tip_event_kind kind);
-const char *br_tip_regime_word(enum br_tip_regime regime);
+extern const char *const br_tip_event_words[], *const br_tip_regime_words[];
 
 /* An observer that fills a watch (out; it must outlive the march). */
 struct br_history_observer br_tip_watch_start(struct br_tip_watch *watch,

@@ -49,22 +49,6 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
 
 /* ---- the reference ---- */
 
-enum br_status br_trials_prepare_reference(const struct br_trial_request *r, void **self,
-                                           struct br_error *err)
-{
-    const struct br_reference *reference_kind = br_trials_reference(r);
-    const struct br_reference_request request = {
-        .scene = r->scene, .levels = 1, .lead = 1, .observer = r->observer};
-    *self = NULL;
-    return reference_kind->nests ? BR_OK : reference_kind->create(self, &request, err);
-}
-
-void br_trials_release_reference(const struct br_trial_request *r, void *self)
-{
-    if (self)
-        br_trials_reference(r)->free(self);
-}
-
 static bool on_one_mesh(const struct br_trial *a, const struct br_trial *b)
 {
     return a->at.n == b->at.n && a->named->method.axial_degree == b->named->method.axial_degree;

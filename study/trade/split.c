@@ -383,14 +383,3 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     distances_free(c.d);
     return status;
 }
-
-bool br_share_known(const struct br_share *share, size_t norm, enum br_part part)
-{
-    return share->error[norm][part] > share->floor[norm][part];
-}
-
-double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
-                       enum br_part part)
-{
-    return share->error[norm][part] / split->sum.error[norm][part];
-}

@@ -36,37 +36,6 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
     };
 }
 
-struct br_method br_trial_method(const struct br_trial *trial)
-{
-    struct br_method method = trial->named->method;
-    if (trial->named->method.scheme->adaptive)
-        method.tolerance = trial->tolerance;
-    return method;
-}
-
-bool br_trials_same(const struct br_trial *a, const struct br_trial *b)
-{
-    return a->named == b->named && a->at.n == b->at.n && a->at.steps == b->at.steps &&
-           a->tolerance == b->tolerance;
-}
-
-double br_trial_seconds(const struct br_trial *trial)
-{
-    return trial->cost.set_up + trial->cost.march;
-}
-
-double br_trial_relative(const struct br_trial *trial)
-{
-    return trial->scale > 0 ? trial->error[BR_PART_TOTAL] / trial->scale : NAN;
-}
-
-double br_trial_bound(const struct br_trial *trial)
-{
-    const double own = isfinite(trial->own) ? trial->own : 0;
-    const bool counts = trial->end == BR_TRIAL_DONE || trial->end == BR_TRIAL_DOUBTFUL;
-    return counts && trial->scale > 0 ? (trial->error[BR_PART_TOTAL] + own) / trial->scale : NAN;
-}
-
 /* ---- seconds ---- */
 
 /* Element-steps between two readings of the clock; a reading takes some 0.3 us. */
@@ -360,11 +329,6 @@ static void clear(struct groups *g)
     free(g->member);
     free(g->steps);
     free(g->method);
-}
-
-const struct br_reference *br_trials_reference(const struct br_trial_request *r)
-{
-    return r->reference_kind ? r->reference_kind : br_reference_best(r->scene);
 }
 
 /* Finds the errors of the complete trials. */

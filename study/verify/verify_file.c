@@ -141,7 +141,9 @@ static bool parse_what(const char *text, struct br_verify_expectation *e)
     const int words = sscanf(text, "%63s %63s %c", norm, part, &rest);
     if (words < 1 || words > 2)
         return false;
-    e->norm = br_norm_find(norm);
+    for (size_t i = 0; br_norms[i]; i++)
+        if (strcmp(br_norms[i]->name, norm) == 0)
+            e->norm = br_norms[i];
     for (int p = 0; p < BR_PARTS; p++)
         if (strcmp(br_part_names[p], part) == 0) {
             e->part = (enum br_part)p;
