@@ -58,6 +58,11 @@ enum br_status br_differences_run(const struct br_study *grid, enum br_axis axis
 {
     const bool over_h = axis == BR_AXIS_SPACE;
     size_t norms = 0;
+    if (grid->n_count < 1u + over_h || grid->k_count < 1u + !over_h)
+        return br_fail(err, BR_BAD_INPUT,
+                       "found %zu meshes and %zu time steps, expected at least two of those that "
+                       "are compared",
+                       grid->n_count, grid->k_count);
     for (const struct br_study *norm = grid; norm; norm = norm->next_norm)
         norms++;
     const size_t pairs = (grid->n_count - over_h) * (grid->k_count - !over_h);

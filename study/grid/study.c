@@ -122,6 +122,14 @@ enum br_status br_study_prepare(struct br_study *s, struct br_error *err)
                        s->n_count == 0 ? "n" : "k");
     if (s->reference_kind->nests && (s->reference.n < 1 || s->reference.steps < 1))
         return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
+    for (size_t c = 0; c < br_study_cells(s); c++)
+        if (br_study_method(s, c)->axial_degree != s->method.axial_degree)
+            return br_fail(err, BR_BAD_INPUT, "the cells have axial elements of several degrees");
+    if (s->reference_kind->nests && s->reference_method.axial_degree != s->method.axial_degree)
+        return br_fail(err, BR_BAD_INPUT,
+                       "the cells have axial elements of degree %d and the reference of degree %d, "
+                       "expected the same",
+                       s->method.axial_degree, s->reference_method.axial_degree);
     enum br_status status =
         s->reference_kind->nests ? check_nesting(s, err) : common_levels(s, err);
     for (struct br_study *norm = s; norm && !status; norm = norm->next_norm) {

@@ -32,7 +32,7 @@ struct br_study {
         *cell_method; /* br_study_cells of them: of each cell instead, on elements
                          of method's degree; NULL: all alike. Borrowed */
     const struct br_reference *reference_kind; /* the reference */
-    struct br_method reference_method;         /* of a fine run, on elements of that degree */
+    struct br_method reference_method;         /* of a fine run */
     struct br_resolution reference; /* a fine run's; otherwise n = 0, and steps are set to the
                                        least common multiple of the cells' */
     const struct br_reference *reference_check; /* measures the reference's own error; NULL: none.

@@ -25,9 +25,10 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
  * errors, and need no reference. ---- */
 
 /* Marches a grid (the first of a chain of norms; scene, norm, method, and lists n and steps,
- * ascending, with two along the axis at least) and measures its differences along an axis into
+ * ascending) and measures its differences along an axis into
  * out[0 .. norms): studies with one mesh or one time step less, whose cells are compared with their
- * next finer neighbours, `against`. Fails as br_study_run does. */
+ * next finer neighbours, `against`.
+ * Fails with BR_BAD_INPUT where there is no neighbour, or as br_study_run does. */
 enum br_status br_differences_run(const struct br_study *grid, enum br_axis axis,
                                   struct br_study *out, int threads,
                                   const struct br_observer *observer, struct br_error *err);
