@@ -14,12 +14,6 @@ struct history_run {
     size_t next_level;         /* index into request->level */
 };
 
-size_t br_history_stride(size_t steps, size_t most_rows)
-{
-    const size_t intervals = most_rows > 2 ? most_rows - 1 : 1;
-    return steps <= intervals ? 1 : (steps + intervals - 1) / intervals;
-}
-
 /* ---- rows ---- */
 
 static void fill_row(struct history_run *r)

@@ -176,11 +176,6 @@ const char *br_method_field_text(const struct br_method_field *f, const struct b
     return br_shortest(value, text, BR_METHOD_VALUE);
 }
 
-bool br_method_field_depends(const struct br_method_field *f)
-{
-    return f != &br_method_fields[f->by];
-}
-
 bool br_method_field_used(const struct br_method_field *f, const struct br_method *m)
 {
     return !br_method_field_depends(f)   ? true
