@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stability limit of the lagged contact: the closed form against the linear solvers, against
- * marches, and in the limits that can be written down. */
+ * marches, and in the limits that can be written down. Contact at u_n has none. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +10,7 @@
 #include "solver/laws.h"
 #include "solver/scene.h"
 #include "study/estimate/warnings.h"
+#include "study/run/run.h"
 #include "support.h"
 
 /* A rod that stays pressed against its obstacle. */
@@ -163,6 +164,42 @@ TEST(test_marches)
                 scene.contact.stiffness = 0.99 * limit;
                 AT_MOST(fabs(deviation(&scene, degree, 1000, &before)), 1e-8);
             }
+}
+
+/* ---- contact at u_n ---- */
+
+/* The rest of a pressed rod by its balance: the free tip is at q L^2 / (2 a), and the contact's
+ * share of q L / 2 is c_H L over a + c_H L. */
+static void check_rest(const struct br_time_scheme *scheme, double stiffness, size_t steps)
+{
+    static struct br_run_report report;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    scene.bending.modelled = false;
+    scene.density = 1e-4;
+    scene.axial.stiffness = 1000;
+    scene.axial.load = (struct br_load){{{{.constant = 1000}, {.constant = 1}}}};
+    scene.contact = (struct br_contact){.modelled = true, .stiffness = stiffness};
+    struct br_run_request request = {
+        .scene = &scene, .method = br_method_default(), .n = 8, .steps = steps, .check = true};
+    request.method.scheme = scheme;
+    request.method.contact = br_contact_rule_find("implicit");
+    MUST(br_run(&request, &report, &err));
+    MUST(report.failure.status);
+    MUST(report.verdict.status);
+    const double rest = 500 / (1000 + stiffness); /* 1e-8 of the way is left by bdf3 in 10 steps */
+    CLOSE(report.end.last.contact_force / (stiffness * rest), 1, 1e-7);
+    CLOSE(report.end.last.displacement[BR_AXIAL] / 0.5, rest / 0.5, 1e-7);
+}
+
+/* Contact at u_n has no limit, and every scheme damps at infinity: ten steps of a hundred
+ * relaxation times bring a pressed rod to rest. */
+TEST(test_rest)
+{
+    for (size_t i = 0; br_time_schemes[i]; i++)
+        for (double stiffness = 1; stiffness < 2e15; stiffness *= 1e3)
+            for (size_t steps = 10; steps <= 1000; steps *= 10)
+                check_rest(br_time_schemes[i], stiffness, steps);
 }
 
 /* ---- what is said of it ---- */
