@@ -71,29 +71,3 @@ TEST(test_other_resolutions)
     }
     br_scene_clear(&scene);
 }
-
-/* Example 3: propped until the reaction 3/8 q L reaches 3000 N, at t = 0.80 s; and the
- * values at t = 1. */
-TEST(test_example3)
-{
-    struct br_scene scene = br_test_bundled("example3");
-    for (size_t steps = 100; steps <= 1600; steps *= 2) {
-        const struct br_method method = br_method_default();
-        struct br_march *march = br_test_march(&scene, 40, steps, &method);
-        double leaves = NAN;
-        for (size_t i = 1; i <= steps; i++) {
-            br_test_advance(march, i);
-            const struct br_tip *tip = br_march_tip(march);
-            assert_true(tip->friction_bound == 3000 && fabs(tip->friction_force) <= 3000);
-            if (isnan(leaves) && fabs(tip->friction_force) == 3000)
-                leaves = br_march_time(march);
-        }
-        CLOSE(leaves, 0.80, 1.0 / (double)steps + 1e-3);
-        double w[2 * 41];
-        br_march_get(march, BR_BENDING, w, NULL);
-        CLOSE(w[2 * 40], -0.24875, 2e-6 + 1e-3 / (double)steps);
-        CLOSE(w[2 * 20], -0.129765625, 2e-6 + 1e-3 / (double)steps);
-        br_march_free(march);
-    }
-    br_scene_clear(&scene);
-}
