@@ -114,7 +114,7 @@ static void count(struct tally *t, const struct br_case *c, const struct br_esti
 static struct br_error_line line_of(const struct br_error_class *class, uint64_t seed, size_t index)
 {
     struct br_error_line line = {.truth = NAN, .other = NAN, .limit = NAN};
-    struct br_random random = br_random_of(seed, index);
+    struct br_test_random random = br_test_random_of(seed, index);
     class->draw(&random, &line);
     return line;
 }
