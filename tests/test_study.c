@@ -558,7 +558,6 @@ TEST(test_observer)
 
 /* ---- differences of successive grids, against studies of single cells ---- */
 
-enum { NORMS = BR_TEST_NORMS };
 static const size_t meshes[] = {3, 6, 24}, steps[] = {10, 20, 60, 120};
 enum { ROWS = sizeof meshes / sizeof *meshes, COLUMNS = sizeof steps / sizeof *steps };
 
