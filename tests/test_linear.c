@@ -73,16 +73,7 @@ static void march(const struct br_field_solver *f, void *self, const struct prob
         take_step(f, self, p, step);
 }
 
-static double largest(const double *x, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        if (!(fabs(x[i]) <= most)) /* a NaN stays */
-            most = fabs(x[i]);
-    return most;
-}
-
-/* ---- lengths of steps, and states ---- */
+/* ---- lengths of steps, and sizes of states ---- */
 
 /* Walks the registry. */
 #define EACH_SOLVER(s) (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
@@ -134,97 +125,6 @@ TEST(test_step_lengths)
         for (size_t i = 0; br_linear_solvers[i]; i++)
             if (functions(br_linear_solvers[i], &p))
                 check_step_lengths(br_linear_solvers[i], &p);
-    }
-}
-
-static double round_off_of(const struct br_linear_solver *solver, const struct problem *p)
-{
-    const struct br_linear_solver *taken = br_linear_solver_taken(solver, &p->field, 0);
-    return taken->round_off(&p->field);
-}
-
-static void same_to_round_off(const struct br_linear_solver *solver, const void *a, const void *b,
-                              const struct problem *p)
-{
-    double w[2][MOST_SIZE], difference[MOST_SIZE];
-    const size_t size = br_field_size(&p->field);
-    functions(solver, p)->get(a, w[0], NULL);
-    functions(solver, p)->get(b, w[1], NULL);
-    for (size_t i = 0; i < size; i++)
-        difference[i] = w[0][i] - w[1][i];
-    AT_MOST(largest(difference, size), round_off_of(solver, p) * largest(w[1], size));
-}
-
-/* Kept, spoiled and restored: a march goes on with the same bits where nodal values are the state,
- * else to round-off. */
-static void check_keeping(const struct br_linear_solver *solver, const struct problem *p)
-{
-    const struct br_field_solver *f = functions(solver, p);
-    struct br_error err = {0};
-    void *self = created(solver, p), *other = created(solver, p);
-    MUST(f->keep(self, 2, &err));
-    march(f, self, p, 1, 10);
-    march(f, other, p, 1, STEPS);
-    f->combine(self, 2, 1, (double[]){1});
-    double spoilt[MOST_SIZE];
-    for (size_t i = 0; i < MOST_SIZE; i++)
-        spoilt[i] = NAN;
-    f->set(self, spoilt, spoilt);
-    f->combine(self, 1, 3, (double[]){0, 0, 1}); /* state 0 is not finite */
-    f->combine(self, 0, 2, (double[]){0, 1});
-    march(f, self, p, 11, STEPS);
-    same_to_round_off(solver, self, other, p);
-    if (solver == &br_umfpack)
-        same_bits(f, self, other, p);
-    f->free(self);
-    f->free(other);
-}
-
-/* combine(a x + b y) is a combine(x) + b combine(y), and takes part in its own sum. */
-static void check_combining(const struct br_linear_solver *solver, const struct problem *p)
-{
-    const struct br_field_solver *f = functions(solver, p);
-    struct br_error err = {0};
-    void *self = created(solver, p);
-    MUST(f->keep(self, 3, &err));
-    double w[4][MOST_SIZE], v[4][MOST_SIZE];
-    for (size_t j = 0; j < 3; j++) {
-        march(f, self, p, 5 * j + 1, 5 * j + 5);
-        f->get(self, w[j], v[j]);
-        if (j < 2)
-            f->combine(self, j + 1, 1, (double[]){1});
-    }
-    /* states 1, 2: w[0], w[1]; state 0: w[2] */
-    f->combine(self, 0, 3, (double[]){-0.5, 3, 0.25});
-    f->get(self, w[3], v[3]);
-    const size_t size = br_field_size(&p->field);
-    const double tolerance =
-        100 * round_off_of(solver, p) *
-        fmax(largest(w[0], size), fmax(largest(w[1], size), largest(w[2], size)));
-    for (size_t i = 0; i < size; i++) {
-        CLOSE(w[3][i], 3 * w[0][i] + 0.25 * w[1][i] - 0.5 * w[2][i], tolerance);
-        CLOSE(v[3][i], 3 * v[0][i] + 0.25 * v[1][i] - 0.5 * v[2][i], tolerance / p->field.k);
-    }
-    f->combine(self, 0, 3, (double[]){0, 0, 0});
-    double size_of[2];
-    f->size(self, 0, size_of);
-    assert_true(size_of[0] == 0 && size_of[1] == 0);
-    f->free(self);
-}
-
-TEST(test_states)
-{
-    for (uint64_t seed = 1; seed <= 20; seed++) {
-        struct br_test_random r = {seed};
-        const struct problem p = random_problem(&r);
-        for
-            EACH_SOLVER(s)
-            {
-                if (!functions(*s, &p) || !functions(*s, &p)->keep)
-                    continue;
-                check_keeping(*s, &p);
-                check_combining(*s, &p);
-            }
     }
 }
 
