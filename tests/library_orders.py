@@ -242,7 +242,7 @@ def check_left_out():
     assert [p.left_out for p in br.orders(error, n=N)["error"].left_out][-1] == "failed"
     for missing in (np.nan, np.inf):  # at the finest size
         lost = br.orders([*(3.0 / N ** 2), missing], n=[*N, 320])
-        refused("e row, n = 320, has no number; without it", lambda: lost.assert_order(2), AssertionError)
+        refused("the finest row, n = 320, has no number; without it", lambda: lost.assert_order(2), AssertionError)
         refused("INCONCLUSIVE", lambda: lost.assert_order(2), AssertionError)
         br.orders([*(3.0 / N ** 2), missing], n=[*N, 320], without=320).assert_order(2)
     refused("INCONCLUSIVE", lambda: br.orders([4, 2, 1], h=[4, 2, 1]).assert_order(1), AssertionError)

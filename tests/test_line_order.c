@@ -230,6 +230,15 @@ TEST(test_left_out)
     assert_int_equal(br_line_order_flag(&found, point, 3), BR_FLAG_OUTLIER);
     assert_int_equal(br_line_order_flag(&found, point, 4), BR_FLAG_NONE);
     CLOSE(found.order.value, 2, 1e-3);
+    for (size_t odd = 1; odd + 1 < ROWS; odd++) { /* each row inside, and no other */
+        make(power, 1, point);
+        point[odd].error *= 5;
+        find(point, ROWS, &found);
+        assert_int_equal(found.outlier, odd);
+        assert_int_equal(found.first, 0);
+        assert_int_equal(found.last, ROWS - 1);
+        CLOSE(found.order.value, 2, 1e-3);
+    }
     make(power, 1, point);
     point[6].error = 0; /* below what can be told */
     point[7].error = 1;

@@ -9,6 +9,7 @@
 #include "base/load.h"
 #include "base/words.h"
 #include "checks.h"
+#include "orders/line/line_order.h"
 #include "orders/request.h"
 
 static struct br_error err;
@@ -93,6 +94,22 @@ TEST(test_names_and_units)
     assert_null(n.quantity[1].unit);
     assert_true(isnan(n.row[2].number[0])); /* an empty field */
     assert_int_equal(n.row[0].line, 3);     /* the heading has two lines */
+    br_numbers_clear(&n);
+}
+
+/* The unit is what stands in the last brackets. */
+TEST(test_units_behind_brackets)
+{
+    struct br_numbers n = read_with(
+        "h,u(x) (m),u[y] [m/s],e (max) [mm],v [x] (s)\n1,4,3,4,2\n.5,2,2,2,1\n.25,1,1,1,.5\n",
+        &plain);
+    static const char *const is[][2] = {
+        {"u(x)", "m"}, {"u[y]", "m/s"}, {"e (max)", "mm"}, {"v [x]", "s"}};
+    assert_int_equal(n.quantities, 4);
+    for (size_t i = 0; i < 4; i++) {
+        assert_string_equal(n.quantity[i].name, is[i][0]);
+        assert_string_equal(n.quantity[i].unit, is[i][1]);
+    }
     br_numbers_clear(&n);
 }
 
@@ -893,6 +910,9 @@ TEST(test_finer)
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find("h,e\n1,1.01\n.5,.26\n.25,.0725\n.125,.025625\n.0625,.01390625\n", NULL); /* h^2 + .01 */
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
+    find("h,e\n1,.999\n.5,.249\n.25,.0615\n.125,.014625\n.0625,.00290625\n", NULL); /* h^2 - .001 */
+    assert_string_equal(found.orders.of[0].line[0].observed.law, br_law_text(BR_LAW_OFFSET));
+    assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find(floor_table(12, pow(4, -7)), NULL); /* its rows are left out */
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find(table_of(4, 4, 2, 1), NULL); /* a grid */
@@ -1109,6 +1129,10 @@ TEST(test_down_to)
     char why[768];
     assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 1e-4", why), BR_PASS);
     assert_int_not_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 0.99e-4", why), BR_PASS);
+    /* so it has no part in the order, also where it is near to the others */
+    static const char near[] = "n,l2\n10,1e-2\n20,2.5e-3\n40,6.25e-4\n80,1.5625e-4\n160,4.1e-5\n";
+    assert_int_equal(verdict_of(near, NULL, "l2: h 2 +- 0.005 down to 4.1e-5", why), BR_PASS);
+    assert_int_not_equal(verdict_of(near, NULL, "l2: h 2 +- 0.005 down to 4.09e-5", why), BR_PASS);
 }
 
 /* Rates from 1.9997 to 2.0000 are no reason to refine where 3 is expected. */
@@ -1133,6 +1157,10 @@ TEST(test_advice)
          "the coarse ones are beyond a limit of stability"},
         {"n,e\n8,.1\n16,.04\n32,.022\n64,.04\n128,.003\n", NULL, "e: h 2 +- 0.1",
          "the errors rise and fall: converge each run further"},
+        {"n,e\n8,.1\n16,.025\n32,.00625\n64,.0015625\n128,.001\n", NULL, "2",
+         "expect the order 'down to 4e-03', and add 1 coarser than n = 8"},
+        {"n,e\n8,.1\n16,.025\n32,.00625\n64,.0015625\n128,.0004\n", NULL, "2 down to 7e-3",
+         "add a row coarser than n = 8"},
         {"n,e\n8,1.31\n16,.92\n32,1.22\n64,.85\n128,1.3\n", "e", "e: h 2 +- 0.1",
          "the differences rise and fall: converge each run further"},
         {"n,e\n8,1\n16,1.1\n32,1.3\n64,1.7\n128,2.5\n", "e", "e: h 2 +- 0.1",
