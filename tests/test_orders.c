@@ -585,6 +585,18 @@ static const char *table_of(int meshes, int steps, double p, double q)
     return text;
 }
 
+/* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
+static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
+    for (int i = 0; i < meshes; i++)
+        for (int j = 0; j < steps; j++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n",
+                                     pow(2, -i), pow(2, -j), f(pow(2, -i), pow(2, -j)));
+    return text;
+}
+
 /* What was found last. */
 static struct {
     struct br_numbers numbers;
@@ -782,6 +794,30 @@ TEST(test_corners_of_a_floor)
         left_out += flag != BR_FLAG_NONE;
     }
     assert_true(left_out > 0);
+}
+
+static double larger_of_both(double h, double k)
+{
+    return fmax(h * h, k * k);
+}
+
+/* What stays along one axis alone is no floor, and what the other axis shows is no reason to leave
+ * a row out. */
+TEST(test_plateau_along_one_axis)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        find(grid_of(turned ? 6 : 10, turned ? 10 : 6, larger_of_both), NULL);
+        const struct br_quantity_orders *of = &found.orders.of[0];
+        assert_false(br_joint_describes(&of->joint));
+        for (size_t row = 0; row < found.numbers.rows; row++)
+            for (int axis = 0; axis < BR_AXES; axis++) {
+                const struct br_row_point *at = &of->point[axis][row];
+                const double *z = found.numbers.row[row].z;
+                if (fabs(log2(z[0] / z[1])) > 1.5 && at->line->observed.point[at->index].flag)
+                    fail_msg("%d: h = %g, k = %g: %s", turned, z[0], z[1],
+                             br_flag_name(at->line->observed.point[at->index].flag));
+            }
+    }
 }
 
 TEST(test_floors)
@@ -1172,18 +1208,6 @@ TEST(test_advice)
         if (!strstr(why, rows[i].says))
             fail_msg("%zu: %s", i, why);
     }
-}
-
-/* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
-static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
-{
-    static char text[MOST_TEXT];
-    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
-    for (int i = 0; i < meshes; i++)
-        for (int j = 0; j < steps; j++)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n",
-                                     pow(2, -i), pow(2, -j), f(pow(2, -i), pow(2, -j)));
-    return text;
 }
 
 static double of_time_alone(double h, double k)
