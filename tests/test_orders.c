@@ -1165,10 +1165,6 @@ TEST(test_down_to)
     char why[768];
     assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 1e-4", why), BR_PASS);
     assert_int_not_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1 down to 0.99e-4", why), BR_PASS);
-    /* so it has no part in the order, also where it is near to the others */
-    static const char near[] = "n,l2\n10,1e-2\n20,2.5e-3\n40,6.25e-4\n80,1.5625e-4\n160,4.1e-5\n";
-    assert_int_equal(verdict_of(near, NULL, "l2: h 2 +- 0.005 down to 4.1e-5", why), BR_PASS);
-    assert_int_not_equal(verdict_of(near, NULL, "l2: h 2 +- 0.005 down to 4.09e-5", why), BR_PASS);
 }
 
 /* Rates from 1.9997 to 2.0000 are no reason to refine where 3 is expected. */
