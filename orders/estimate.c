@@ -17,13 +17,13 @@ static bool hides_an_end(const struct br_estimate *e, double unit)
            (e->high > e->value && round(e->high / unit) <= value);
 }
 
-/* The value and the ends, rounded; no interval has a width of zero, on either side. */
+/* The value and the ends, rounded; rounding makes no side of an interval empty. */
 static void round_ends(const struct br_estimate *e, double unit, double end[3])
 {
-    const double value = round(e->value / unit);
+    const double value = round(e->value / unit), empty = !(e->low < e->high);
     end[0] = unit * value + 0.0; /* what rounds to zero has no sign */
-    end[1] = unit * fmin(round(e->low / unit), value - 1) + 0.0;
-    end[2] = unit * fmax(round(e->high / unit), value + 1) + 0.0;
+    end[1] = unit * fmin(round(e->low / unit), value - fmax(empty, e->low < e->value)) + 0.0;
+    end[2] = unit * fmax(round(e->high / unit), value + fmax(empty, e->high > e->value)) + 0.0;
 }
 
 const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size)

@@ -204,6 +204,8 @@ def check_numbers():
     assert np.isclose(order, 1.5) and np.float64(1) < order and max(order, 1) is order
     assert f"{order:.2f}" == "1.50" and json.loads(json.dumps(order)) == order
     assert repr(br.Number(2, 1.5, 2.5)) == str(br.Number(2, 1.5, 2.5)) == "2 [1.5, 2.5]"
+    assert repr(br.Number(2, 1.9999999, 2.5)) == "2 [1.9999999, 2.5]"  # rounding hides no end
+    assert repr(br.Number(4.0002, 3.996, 4.006)) == "4.0002 [3.996, 4.006]"
     for other in (copy.copy(order), pickle.loads(pickle.dumps(order))):
         assert (other, other.low, other.high, other.open) == (order, order.low, order.high, order.open)
     case = found.check((br.SPACE, 1.5, 0.1)).cases[0]

@@ -291,35 +291,25 @@ static struct br_case *add_case(struct br_check *check)
     return &check->cases[check->count++];
 }
 
-/* The row of the finest size along an axis, at the finest size of the other one there, that no
- * window leaves out. */
-static const struct br_numbers_row *finest_row(const struct br_orders *o, size_t quantity,
-                                               enum br_axis axis)
-{
-    const enum br_axis other = axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
-    const struct br_numbers *n = o->numbers;
-    const struct br_numbers_row *finest = NULL;
-    for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++)
-        if (!(row->absent && row->absent[quantity]) && row->out[quantity] != BR_FLAG_BY_HAND &&
-            (!finest || row->z[axis] < finest->z[axis] ||
-             (row->z[axis] == finest->z[axis] && row->z[other] < finest->z[other])))
-            finest = row;
-    return finest;
-}
-
-/* No order passes where the finest run failed: what it would have shown is not known. */
-static void need_finest(const struct br_orders *o, size_t quantity, enum br_axis axis,
+/* No order passes where the finest run failed, unless a window leaves that out. The rows are
+ * sorted, so the last one of the finest size has the finest other size. */
+static void need_finest(const struct br_numbers *n, size_t quantity, enum br_axis axis,
                         struct br_case *c)
 {
-    const struct br_numbers_row *row = finest_row(o, quantity, axis);
+    const struct br_numbers_row *finest = NULL;
     char name[BR_CELL_NAME];
-    if (c->verdict != BR_PASS || (!row->failure && isfinite(row->number[quantity])))
+    for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++)
+        if (!(row->absent && row->absent[quantity]) && row->out[quantity] != BR_FLAG_BY_HAND &&
+            (!finest || row->z[axis] <= finest->z[axis]))
+            finest = row;
+    if (c->verdict != BR_PASS || (!finest->failure && isfinite(finest->number[quantity])))
         return;
-    br_numbers_name_cell(o->numbers, row, name);
+    br_numbers_name_cell(n, finest, name);
     c->verdict = BR_INCONCLUSIVE;
     snprintf(c->reason, sizeof c->reason,
              "the finest row, %s, %s%.300s; without it the others pass (--without leaves it out)",
-             name, row->failure ? "failed: " : "has no number", row->failure ? row->failure : "");
+             name, finest->failure ? "failed: " : "has no number",
+             finest->failure ? finest->failure : "");
 }
 
 /* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
@@ -348,7 +338,7 @@ enum br_status br_orders_decide(const struct br_orders *o, const struct br_quant
         br_case_take_order(c, answer->order, NAN);
     c->open = answer->open;
     br_case_decide(c);
-    need_finest(o, of->quantity, e->axis, c);
+    need_finest(o->numbers, of->quantity, e->axis, c);
     if (isnan(c->order.value)) /* of too few errors for a verdict */
         c->order = answer->order;
     return BR_OK;

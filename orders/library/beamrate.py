@@ -270,8 +270,9 @@ def _order_text(o):
     digits = 4 if half < 5e-4 else 3 if half < 5e-3 else 2
     while digits < 4 and any(end != o and round(end, digits) == round(o, digits) for end in (o.low, o.high)):
         digits += 1
-    unit, value = 10 ** -digits, round(o, digits)
-    low, high = min(round(o.low, digits), value - unit), max(round(o.high, digits), value + unit)
+    unit, value, empty = 10 ** -digits, round(o, digits), o.low == o.high
+    low = min(round(o.low, digits), value - unit * (empty or o.low < o))
+    high = max(round(o.high, digits), value + unit * (empty or o.high > o))
     return f"{o:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"
 
 
