@@ -1470,6 +1470,8 @@ TEST(test_verdicts)
                                    "6,3.815e-6\n7,4.768e-7\n";
     static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n",
                       two[] = "h,Eh,eH\n1,4,4\n.5,1,1\n.25,.25,.25\n.125,.0625,.0625\n";
+    static const char cases[] = "m,n,l2\nA,1,1\nA,2,.25\nA,4,.0625\nA,8,.015625\nB,1,1\nB,2,.5\n"
+                                "B,4,.25\nB,8,.125\nB,16,.0625\n";
     /* the run of the finest size failed */
     static const char lost[] = "h,l2\n4,16\n2,4\n1,1\n.5,.25\n.25,.0625\n.125,.015625\n.0625,inf\n";
     char line[1024], grid[4096], floor[4096], blown[4096];
@@ -1497,6 +1499,7 @@ TEST(test_verdicts)
          "3 of 5 errors can be used, an order needs 4"},
         {lost, NULL, ">= 1.8", BR_INCONCLUSIVE, "the finest row, h = 0.0625, has no number"},
         {lost, NULL, "2.5 +- 0.1", BR_FAIL, ""},
+        {cases, NULL, "l2 [m = A] = 2", BR_PASS, ""}, /* it has no row n = 16 */
         {lost, "l2", "2", BR_INCONCLUSIVE, "h = 0.0625, has no number; without it the others"},
         {blown, NULL, "h 2", BR_INCONCLUSIVE, "the finest row, h = 0.03125, k = 0.03125, has no"},
         {blown, NULL, "k 1", BR_INCONCLUSIVE, "the finest row, h = 0.03125, k = 0.03125, has no"},
