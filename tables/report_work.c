@@ -147,8 +147,8 @@ static void put_growth(struct br_document *d, const struct br_work_precision *w)
                .flags = BR_VARIES);
         BR_PUT_ESTIMATE(d, &p->growth, br_order_text(&p->growth, text, TEXT), .key = "growth",
                         .heading = "cost grows like 1/size to the power");
-        BR_PUT_ESTIMATE(d, &p->tenth, br_interval_text(&p->tenth, text, sizeof text), .key = "tenth",
-                        .heading = "a tenth of the error costs, times");
+        BR_PUT_ESTIMATE(d, &p->tenth, br_interval_text(&p->tenth, text, sizeof text),
+                        .key = "tenth", .heading = "a tenth of the error costs, times");
         BR_PUT(d, br_number(p->wanted), .key = "wanted", .format = "%.0e");
         BR_PUT_ESTIMATE(d, &p->needed, br_interval_text(&p->needed, text, sizeof text),
                         .key = "needed", .heading = "which would cost", .unit = w->cost_unit);

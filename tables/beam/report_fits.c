@@ -44,7 +44,8 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
             BR_PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a],
                             .format = "%.3g");
         }
-        BR_PUT_ESTIMATE(d, &j->r, claims ? br_interval_text(&j->r, text, sizeof text) : "-", .key = "r", .heading = "r [95 %]");
+        BR_PUT_ESTIMATE(d, &j->r, claims ? br_interval_text(&j->r, text, sizeof text) : "-",
+                        .key = "r", .heading = "r [95 %]");
         BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
         BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
         BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
