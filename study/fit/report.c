@@ -335,3 +335,8 @@ void br_report_clear(struct br_report *r)
         br_numbers_clear(&r->numbers[part]);
     }
 }
+
+double br_report_ratio(const struct br_report *r, size_t cell)
+{
+    return r->printed ? r->study->cell[cell].error[BR_PART_TOTAL] / r->printed[cell] : NAN;
+}

@@ -3,8 +3,6 @@
 #ifndef BR_STUDY_FIT_REPORT_H
 #define BR_STUDY_FIT_REPORT_H
 
-#include <math.h>
-
 #include "study/fit/theory.h"
 #include "study/fit/triangle.h"
 
@@ -69,9 +67,6 @@ enum br_status br_report_finish(struct br_report *report, int threads, struct br
 void br_report_clear(struct br_report *report);
 
 /* The error of a cell over the printed one; NaN where nothing is printed. */
-static inline double br_report_ratio(const struct br_report *r, size_t cell)
-{
-    return r->printed ? r->study->cell[cell].error[BR_PART_TOTAL] / r->printed[cell] : NAN;
-}
+double br_report_ratio(const struct br_report *report, size_t cell);
 
 #endif
