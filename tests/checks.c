@@ -192,6 +192,85 @@ static size_t same_bytes(const char *text, const char *stored, double tolerance)
     return (size_t)(at - text) + (*stored != '\0');
 }
 
+enum { MOST_LINES = 8192, LEAST_FOLDED = 3 };
+
+/* How many lines from i on are those from j < i on. */
+static size_t same_lines(char *const *line, size_t lines, size_t j, size_t i)
+{
+    size_t count = 0;
+    while (j + count < i && i + count < lines && strcmp(line[j + count], line[i + count]) == 0)
+        count++;
+    return count;
+}
+
+/* The text without what stands twice in it: some lines that stand before are named, and empty lines
+ * are counted. The text is cut into its lines. */
+static void fold(FILE *out, char *text)
+{
+    static char *line[MOST_LINES];
+    size_t lines = 0, count;
+    for (char *rest; lines < MOST_LINES && *text; text = rest) {
+        rest = text + strcspn(text, "\n");
+        rest += *rest == '\n';
+        line[lines++] = text;
+        if (rest[-1] == '\n')
+            rest[-1] = '\0';
+    }
+    assert_true(lines < MOST_LINES);
+    for (size_t i = 0; i < lines; i += count) {
+        size_t before = 0;
+        count = 1;
+        for (size_t j = 0; j < i && *line[i]; j++) {
+            const size_t same = same_lines(line, lines, j, i);
+            if (same > count) {
+                count = same;
+                before = j;
+            }
+        }
+        while (!*line[i] && i + count < lines && !*line[i + count])
+            count++;
+        if (*line[i] && count >= LEAST_FOLDED)
+            fprintf(out, "[lines %zu to %zu]\n", before + 1, before + count);
+        else if (!*line[i] && count > 1)
+            fprintf(out, "[%zu empty lines]\n", count);
+        else
+            fprintf(out, "%s\n", line[i + (count = 1) - 1]);
+    }
+}
+
+/* Prints what was folded. */
+static void unfold(FILE *out, char *text)
+{
+    static char *line[MOST_LINES], empty[] = "";
+    size_t lines = 0, first, last;
+    char bracket;
+    for (char *row; (row = strsep(&text, "\n")) && text;) {
+        const bool again = sscanf(row, "[lines %zu to %zu%c", &first, &last, &bracket) == 3;
+        const bool are_empty = !again && sscanf(row, "[%zu empty lines%c", &last, &bracket) == 2;
+        if (!again)
+            first = 1;
+        if (!again && !are_empty)
+            last = 1;
+        assert_true(lines + last < MOST_LINES);
+        for (size_t i = first; i <= last; i++)
+            line[lines++] = again ? line[i - 1] : are_empty ? empty : row;
+    }
+    for (size_t i = 0; i < lines; i++)
+        fprintf(out, "%s\n", line[i]);
+}
+
+/* What a change of the text prints, to be freed; the text is lost. */
+static char *changed(void (*change)(FILE *out, char *text), char *text)
+{
+    char *other = NULL;
+    size_t size;
+    FILE *out = open_memstream(&other, &size);
+    assert_non_null(out);
+    change(out, text);
+    assert_int_equal(fclose(out), 0);
+    return other;
+}
+
 void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance)
 {
     static char stored[1 << 18];
@@ -200,19 +279,26 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     print(out);
+    fputc('\n', out);
     assert_int_equal(fclose(out), 0);
     snprintf(path, sizeof path, "%s/tests/golden/made/%s.txt", getenv("BEAMRATE_DATA"), name);
-    if (getenv("BR_TEST_UPDATE"))
-        write_file(path, text);
+    if (getenv("BR_TEST_UPDATE")) {
+        char *copy = strdup(text), *short_one = changed(fold, copy);
+        write_file(path, short_one);
+        free(short_one);
+        free(copy);
+    }
     FILE *file = fopen(path, "r");
     if (!file)
         fail_msg("%s is not there", path);
     stored[fread(stored, 1, sizeof stored - 1, file)] = '\0';
     fclose(file);
-    const size_t same = same_bytes(text, stored, tolerance);
+    char *whole = changed(unfold, stored);
+    const size_t same = same_bytes(text, whole, tolerance);
     if (same != size)
         fail_msg("%s is otherwise from here on (./bootstrap update writes it anew): %.200s", path,
                  text + (same < size ? same : size));
+    free(whole);
     free(text);
 }
 

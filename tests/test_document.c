@@ -203,12 +203,13 @@ static void print_formats(FILE *out)
     fputs("==== the terminal\n", out);
     MUST(br_document_show(out, &d, 1, &err));
     br_document_clear(&d);
+    fputs("==== pages\n", out);
+    print_pages(out);
 }
 
 TEST(test_formats)
 {
     br_test_stored("document", print_formats, 0);
-    br_test_stored("pages", print_pages, 0);
 }
 
 /* ---- a terminal ---- */

@@ -7,8 +7,8 @@
 # with the stand-ins of stand_ins.c, for rows and what pages show; there is no gnuplot. $PROGRAM is the program itself,
 # for all others: beside it is beamrate-orders.
 # usage: run.sh            rows but the long ones, and what pages show; examples that are the same commands
-#        run.sh --rest     all others: long rows, examples; files that are printed pass their checks
-#        run.sh NAME...    these rows alone
+#        run.sh --rest     all other examples; files that are printed pass their checks
+#        run.sh NAME...    these rows alone, which may be long
 #        run.sh --update   rewrites rows and pages where they differ, and says which
 set -u
 : "${BEAMRATE:?is the program}"
@@ -36,7 +36,7 @@ grep -v '^#' "$here/commands.txt" | sed -n 's/ *| */|/g; s/ *$//; /|/p' | tr '|'
     awk -F '\t' -v OFS='\t' '{ marks = $1; sub(/^[^ ]* */, "", marks); sub(/ .*/, "", $1); print $1, marks " ", $2, $3 }' \
         >"$folder/all_rows"
 awk -F '\t' -v mode=$mode -v wanted="$wanted" '{ long = index($2, "long ") }
-    mode == "update" || (mode == "rest" ? long : mode == "rows" ? !long : index(wanted, " " $1 " "))' \
+    mode == "update" || (mode == "rows" ? !long : index(wanted, " " $1 " "))' \
     "$folder/all_rows" >"$folder/rows"
 
 list_pages() {
@@ -85,15 +85,14 @@ facts() {
     awk '/^ "/ { skip = /^ "(answer|tables|about_tables|notes|pictures|verdicts|provenance)":/ } /^}/ { skip = 0 } !skip'
 }
 
-# Prints all that a row's command has left, these files among it; but no line that stands before, also in the
-# first of the pictures that are stored, or in the row that the name begins with (run of run_bdf2).
-print_left() { # NAME FILES
+# Prints all that a row's command has left, these files among it.
+print_left() { # FILES
     echo "exit code $code"
     echo "==== standard output"
     mask <../out
     echo "==== standard error"
     mask <../err
-    for file in $2; do
+    for file in $1; do
         echo "==== $file"
         case $file in
         *.dat) awk -f "$here/digest.awk" "$file" | mask ;;
@@ -102,11 +101,11 @@ print_left() { # NAME FILES
         esac
     done
 }
-fold() { # NAME
+# What stands before a row, so that it is folded: pictures, and the row that the name begins with (run of run_bdf2).
+first_of() { # NAME
     first=$here/${1%%_*}.txt
     [ "$first" != "$here/$1.txt" ] && [ -e "$first" ] || first=/dev/null
-    sed "s/^==== /==== ${1%%_*}: /" "$first" | cat "$here/made/figures.txt" - >"$folder/first"
-    awk -f "$here/fold.awk" "$folder/first" "$folder/whole"
+    sed "s/^==== /==== ${1%%_*}: /" "$first" | cat "$here/made/figures.txt" -
 }
 
 number=0 failed=0
@@ -126,20 +125,21 @@ compare_row() { # NAME MARKS FILES
     for mark in $2; do
         case $mark in round-off) round_off=yes ;; counts) counts=yes ;; long) ;; *) tolerance=$mark ;; esac
     done
-    print_left "$1" "$3" >"$folder/whole"
-    fold "$1" >"$folder/new"
+    print_left "$3" >"$folder/new"
+    first_of "$1" >"$folder/first"
     stored=$here/$1.txt
     [ -e "$stored" ] || stored=/dev/null
+    awk -f "$here/unfold.awk" "$folder/first" "$stored" >"$folder/stored"
     awk -v tolerance="$tolerance" -v round_off=$round_off -v counts=$counts -f "$here/compare.awk" \
-        "$stored" "$folder/new" >"$folder/merged"
+        "$folder/stored" "$folder/new" >"$folder/merged"
     same=$?
-    if [ $same -ne 0 ] && [ $mode = update ]; then
-        cp "$folder/new" "$here/$1.txt"
-        report 0 "$1 # updated"
-    else
-        diff -U1 "$stored" "$folder/merged" | sed 1,2d >"$folder/why"
-        report $same "$1"
+    if [ $mode = update ]; then
+        [ $same -eq 0 ] || echo "# $1 is updated"
+        awk -f "$here/fold.awk" "$folder/first" "$folder/merged" >"$here/$1.txt"
+        same=0
     fi
+    diff -U1 "$folder/stored" "$folder/merged" | sed 1,2d >"$folder/why"
+    report $same "$1"
 }
 
 # What the example has printed says something, and no number in it is nan.
@@ -209,18 +209,20 @@ done
 echo "$same" >"$folder/why"
 [ "$same" = ' a 1.50, b 2 the, a 1.50|b 2, ..., ran on ..., in 9e-14, in -2e-14, the|long end,' ]
 report $? "comparison of what is shown"
-# What is folded is another text where a line of it is another one, or stands elsewhere.
 printf '==== a\n1\n2\n3\n4\n' >"$folder/first"
 same=
-for text in '1|2|3' '1|2' '1|3|2' '2|3|4' '1|2|3|4|1|2|3' 'x|||y'; do
+for text in '1|2|3' '1|2' '2|3|4' '==== b|x|1|2|3|4||1|2|3|x|1|2|3' 'x|||y'; do
     echo "$text" | tr '|' '\n' >"$folder/whole"
-    same="$same $(awk -f "$here/fold.awk" "$folder/first" "$folder/whole" | tr '\n' '|')"
-done
-echo "$same" >"$folder/why"
-[ "$same" = ' [lines 1 to 3 of a]| 1|2| 1|3|2| [lines 2 to 4 of a]| [lines 1 to 4 of a]|[lines 1 to 3 of a]| x|[2 empty lines]|y|' ]
+    awk -f "$here/fold.awk" "$folder/first" "$folder/whole" >"$folder/folded"
+    awk -f "$here/unfold.awk" "$folder/first" "$folder/folded" | cmp -s - "$folder/whole" || echo "not unfolded: $text"
+    same="$same $(tr '\n' '&' <"$folder/folded")"
+done >"$folder/why"
+echo "$same" >>"$folder/why"
+[ "$same" = ' [lines 1 to 3 of a]& 1&2& [lines 2 to 4 of a]& ==== b&x&[lines 1 to 4 of a]&&[lines 1 to 3 of a]&[lines 1 to 4 of b]& x&[2 empty lines]&y&' ]
 report $? folding
-printf '# t\n1 2 -\n3 4 s\n\n\n5 6 -\n' | awk -f "$here/digest.awk" >"$folder/why"
-[ "$(tr '\n' '|' <"$folder/why")" = '# t|2 points, sums 7 10, - s|[2 empty lines]|1 points, sums 5 6|' ]
+printf '# t\n\n# index 0: a\n# x | y\n1 2 -\n3 4 s\n\n\n# index 1: b\n# x | y\n5 6 -\n' |
+    awk -f "$here/digest.awk" >"$folder/why"
+[ "$(tr '\n' '&' <"$folder/why")" = '# t&1 empty, # index 0: a x | y: 2 points, sums 7 10, - s&2 empty, # index 1: b =: 1 points, sums 5 6&' ]
 report $? digest
 
 # ---- rows, and what pages show ----
