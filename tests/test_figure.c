@@ -498,4 +498,7 @@ static void print_all(FILE *out)
     print_checks(out);
 }
 
-TEST(test_stored) { br_test_stored("figures", print_all, 1e-12); }
+TEST(test_stored)
+{
+    br_test_stored("figures", print_all, 1e-12);
+}

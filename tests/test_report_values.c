@@ -130,11 +130,11 @@ static char *printed(const struct br_document_format *format, const struct br_do
     return text;
 }
 
-/* For programs: of JSON what is in no other format, and the tables as CSV; clears the document. That
- * the formats agree is a test of documents. */
+/* For programs: of JSON what is in no other format, and the tables as CSV; clears the document.
+ * That the formats agree is a test of documents. */
 static void print_values(FILE *out, struct br_document *d)
 {
-    static const char *const elsewhere[] = {"answer", "about_tables", "notes",    "pictures",
+    static const char *const elsewhere[] = {"answer", "about_tables", "notes",   "pictures",
                                             "tables", "provenance",   "verdicts"};
     const struct br_document_table *t;
     size_t block = 0;
