@@ -378,7 +378,7 @@ static struct br_figure draw_checks(size_t count)
 static void print_checks(FILE *out)
 {
     print(out, draw_checks(1));
-    print_data(out, draw_checks(11));
+    print(out, draw_checks(11));
 }
 
 TEST(test_checks)

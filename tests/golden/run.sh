@@ -6,7 +6,8 @@
 # is what it is (shown.awk). An example ends with 0, and says something without a nan. $BEAMRATE is the program
 # with the stand-ins of stand_ins.c, for rows and what pages show; there is no gnuplot. $PROGRAM is the program itself,
 # for all others: beside it is beamrate-orders.
-# usage: run.sh            rows but the long ones, and what pages show; examples that are the same commands
+# usage: run.sh            rows but the long ones, and what pages show in text that is not "long"; examples that are
+#                          the same commands
 #        run.sh --rest     all other examples; files that are printed pass their checks
 #        run.sh NAME...    these rows alone, which may be long
 #        run.sh --update   rewrites rows and pages where they differ, and says which
@@ -51,13 +52,13 @@ list_pages() {
     awk -v mode=page -v files="$folder/files" -f "$here/pages.awk" "$BEAMRATE_DATA"/README.md "$BEAMRATE_DATA"/docs/*.md
 }
 
-: >"$folder/examples" >"$folder/shown"
+: >"$folder/examples"
+: >"$folder/shown"
 if [ $mode != names ]; then
     (list_pages) >"$folder/all"
-    grep '^shown' "$folder/all" | sort -t "$tab" -k 3 >"$folder/shown"
-    # Of an example that is a row, too, or that a page shows, only what it is.
-    grep -v '^shown' "$folder/all" | awk -F '\t' '!seen[$3]++' >"$folder/examples"
-    cat "$folder/all_rows" "$folder/shown" | cut -f 3 >"$folder/known"
+    grep -E '^(shown|later)' "$folder/all" | sort -t "$tab" -k 3 >"$folder/shown"
+    grep -vE '^(shown|later)' "$folder/all" | awk -F '\t' '!seen[$3]++' >"$folder/examples"
+    grep '^shown' "$folder/shown" | cat "$folder/all_rows" - | cut -f 3 >"$folder/known"
 fi
 
 # ---- running ----
@@ -121,7 +122,7 @@ report() { # WHETHER WHAT: the file `why` has the reason
 }
 
 compare_row() { # NAME MARKS FILES
-    tolerance= round_off= counts=
+    tolerance='' round_off='' counts=''
     for mark in $2; do
         case $mark in round-off) round_off=yes ;; counts) counts=yes ;; long) ;; *) tolerance=$mark ;; esac
     done
@@ -233,7 +234,9 @@ while IFS="$tab" read -r name marks command files; do
     compare_the_same "$command"
 done <"$folder/rows"
 if [ $mode = rows ] || [ $mode = update ]; then
-    cut -f 3 "$folder/all_rows" | grep -vxFf - "$folder/known" | uniq >"$folder/lines"
+    [ $mode = rows ] && kind=shown || kind=
+    cut -f 3 "$folder/all_rows" >"$folder/known_rows"
+    grep "^$kind" "$folder/shown" | cut -f 3 | grep -vxFf "$folder/known_rows" | uniq >"$folder/lines"
     while IFS= read -r line; do
         run "$line"
         compare_the_same "$line"
@@ -320,14 +323,16 @@ if [ $mode = rest ]; then
     ln -sf "$(dirname "$PROGRAM")/beamrate-orders" "$folder/bin/beamrate-orders"
     PATH=$folder/bin:$PATH
     (prepare) >"$folder/why" 2>&1 || report 1 preparation
-    awk -F '\t' 'NR == FNR { known[$0] = 1; next } !($3 in known)' "$folder/known" "$folder/examples" >"$folder/others"
+    grep '^later' "$folder/shown" | cat - "$folder/examples" >"$folder/all"
+    awk -F '\t' 'NR == FNR { known[$0] = 1; next } !($3 in known) && !seen[$3]++' "$folder/known" "$folder/all" >"$folder/others"
     while IFS="$tab" read -r how where line; do
         case $line in
         mpirun*) report 0 "left to test_ranks: $line" && continue ;;
         esac
-        if [ "$how" = long ]; then line="$line --help"; else shorten; fi
+        case $how in long) line="$line --help" ;; short) shorten ;; esac
         run_example
         compare_example "$where" "$line"
+        [ "$how" != later ] || compare_shown "$line"
     done <"$folder/others"
     check_files
     [ "$(wc -l <"$folder/others")" -gt 70 ] && [ "$(wc -l <"$folder/shown")" -ge 6 ]
