@@ -736,11 +736,11 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(n->value), heading", "br_number(scene->derived->value), heading"},
 
     /* ---- what is printed, drawn and asked for ---- */
-    {"check_floor_is_the_ceiling", "printed", "tables/report_check.c", "golden check",
+    {"check_floor_is_the_ceiling", "printed", "tables/report_check.c", "tests/test_report_values",
      "br_number(e->floor), br_number", "br_number(e->ceiling), br_number"},
-    {"check_margin_is_the_tolerance", "printed", "tables/report_check.c", "golden check",
+    {"check_margin_is_the_tolerance", "printed", "tables/report_check.c", "tests/test_report_values",
      "br_number(c->margin),\n", "br_number(e->tolerance),\n"},
-    {"junit_failures_are_errors", "printed", "tables/document_verdicts.c", "golden check",
+    {"junit_failures_are_errors", "printed", "tables/document_verdicts.c", "tests/test_report_values",
      "tests=\\\"%zu\\\" failures=\\\"%zu\\\" errors",
      "tests=\\\"%zu\\\" errors=\\\"%zu\\\" failures"},
     {"old_order_is_its_low_end", "index", "tables/check_read.c", "tests/test_report_values",
