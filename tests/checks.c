@@ -194,66 +194,75 @@ static size_t same_bytes(const char *text, const char *stored, double tolerance)
 
 enum { MOST_LINES = 8192, LEAST_FOLDED = 3 };
 
-/* How many lines from i on are those from j < i on. */
-static size_t same_lines(char *const *line, size_t lines, size_t j, size_t i)
+/* Cuts a text into its lines, each with an end; returns their number. */
+static size_t cut(char *text, char *line[MOST_LINES])
 {
-    size_t count = 0;
-    while (j + count < i && i + count < lines && strcmp(line[j + count], line[i + count]) == 0)
-        count++;
-    return count;
+    size_t lines = 0;
+    for (char *row; (row = strsep(&text, "\n")) && text;) {
+        assert_true(lines < MOST_LINES);
+        line[lines++] = row;
+    }
+    return lines;
 }
 
-/* The text without what stands twice in it: some lines that stand before are named, and empty lines
- * are counted. The text is cut into its lines. */
+/* Of the lines from i on, how many stand before, or are empty; *from is the first of them. */
+static size_t longest_copy(char *const *line, size_t lines, size_t i, size_t *from)
+{
+    size_t longest = 0, count = 0;
+    while (i + count < lines && !*line[i + count])
+        count++;
+    if (count > 0)
+        return count;
+    for (size_t j = 0; j < i; j++) {
+        for (count = 0; j + count < i && i + count < lines; count++)
+            if (strcmp(line[j + count], line[i + count]) != 0)
+                break;
+        if (count > longest) {
+            longest = count;
+            *from = j;
+        }
+    }
+    return longest;
+}
+
+/* Prints the text without what stands twice in it: some lines that stand before are named, and
+ * empty lines are counted. */
 static void fold(FILE *out, char *text)
 {
     static char *line[MOST_LINES];
-    size_t lines = 0, count;
-    for (char *rest; lines < MOST_LINES && *text; text = rest) {
-        rest = text + strcspn(text, "\n");
-        rest += *rest == '\n';
-        line[lines++] = text;
-        if (rest[-1] == '\n')
-            rest[-1] = '\0';
-    }
-    assert_true(lines < MOST_LINES);
+    const size_t lines = cut(text, line);
+    size_t count = 0, from = 0;
     for (size_t i = 0; i < lines; i += count) {
-        size_t before = 0;
-        count = 1;
-        for (size_t j = 0; j < i && *line[i]; j++) {
-            const size_t same = same_lines(line, lines, j, i);
-            if (same > count) {
-                count = same;
-                before = j;
-            }
-        }
-        while (!*line[i] && i + count < lines && !*line[i + count])
-            count++;
-        if (*line[i] && count >= LEAST_FOLDED)
-            fprintf(out, "[lines %zu to %zu]\n", before + 1, before + count);
-        else if (!*line[i] && count > 1)
+        count = longest_copy(line, lines, i, &from);
+        if (!*line[i] && count > 1) {
             fprintf(out, "[%zu empty lines]\n", count);
-        else
-            fprintf(out, "%s\n", line[i + (count = 1) - 1]);
+        } else if (*line[i] && count >= LEAST_FOLDED) {
+            fprintf(out, "[lines %zu to %zu]\n", from + 1, from + count);
+        } else {
+            fprintf(out, "%s\n", line[i]);
+            count = 1;
+        }
     }
 }
 
 /* Prints what was folded. */
 static void unfold(FILE *out, char *text)
 {
-    static char *line[MOST_LINES], empty[] = "";
-    size_t lines = 0, first, last;
-    char bracket;
-    for (char *row; (row = strsep(&text, "\n")) && text;) {
-        const bool again = sscanf(row, "[lines %zu to %zu%c", &first, &last, &bracket) == 3;
-        const bool are_empty = !again && sscanf(row, "[%zu empty lines%c", &last, &bracket) == 2;
+    static char *row[MOST_LINES], *line[MOST_LINES], empty[] = "";
+    const size_t rows = cut(text, row);
+    size_t lines = 0;
+    for (size_t i = 0; i < rows; i++) {
+        size_t first, last;
+        char bracket;
+        const bool again = sscanf(row[i], "[lines %zu to %zu%c", &first, &last, &bracket) == 3;
+        const bool none = !again && sscanf(row[i], "[%zu empty lines%c", &last, &bracket) == 2;
         if (!again)
             first = 1;
-        if (!again && !are_empty)
+        if (!again && !none)
             last = 1;
-        assert_true(lines + last < MOST_LINES);
-        for (size_t i = first; i <= last; i++)
-            line[lines++] = again ? line[i - 1] : are_empty ? empty : row;
+        assert_true(first > 0 && lines + last < MOST_LINES);
+        for (size_t j = first; j <= last; j++)
+            line[lines++] = again ? line[j - 1] : none ? empty : row[i];
     }
     for (size_t i = 0; i < lines; i++)
         fprintf(out, "%s\n", line[i]);
