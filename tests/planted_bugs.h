@@ -812,7 +812,7 @@ static const struct planted_bug planted_bugs[] = {
      "NUMBER(tolerance, iteration.tolerance, double)"},
     {"reference_of_one_element_more", "option", "cli/beam/study_request.c", "golden study_fine",
      "r->reference_n = (size_t)n;", "r->reference_n = 2 * (size_t)n;"},
-    {"verdict_without_exit_code", "option", "cli/verdicts.c", "golden check_fails",
+    {"verdict_without_exit_code", "option", "cli/verdicts.c", "golden check_compare",
      "if (passed < all)", "if (passed > all)"},
     {"warning_without_remedy", "option", "cli/beam/warn.c", "golden run_warned",
      "fprintf(stderr, \"    %.*s\\n\", length, line);", ""},
