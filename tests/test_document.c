@@ -13,7 +13,6 @@
 #include <unistd.h>
 
 #include "checks.h"
-#include "lab/random.h"
 #include "tables/document.h"
 
 static struct br_error err;
@@ -227,19 +226,19 @@ struct drawn {
     char key[MOST_TABLES][MOST_COLUMNS][WORD];
 };
 
-static struct br_value draw_value(struct br_random *r, size_t kind, char text[WORD])
+static struct br_value draw_value(struct br_test_random *r, size_t kind, char text[WORD])
 {
-    snprintf(text, WORD, "w%zux", br_random_index(r, 99999));
-    const double number = br_random_uniform(r, -1, 1) * pow(10, br_random_uniform(r, -300, 300));
-    switch (br_random_index(r, 6) == 0 ? 4 : kind) {
+    snprintf(text, WORD, "w%zux", br_test_index(r, 99999));
+    const double number = br_test_uniform(r, -1, 1) * pow(10, br_test_uniform(r, -300, 300));
+    switch (br_test_index(r, 6) == 0 ? 4 : kind) {
     case 0:
-        return br_number(br_random_index(r, 5) ? number : (double)NAN);
+        return br_number(br_test_index(r, 5) ? number : (double)NAN);
     case 1:
-        return br_count(br_random_index(r, 1 << 30));
+        return br_count(br_test_index(r, 1 << 30));
     case 2:
         return br_text(text);
     case 3:
-        return br_truth(br_random_index(r, 2));
+        return br_truth(br_test_index(r, 2));
     default:
         return br_nothing();
     }
@@ -247,19 +246,19 @@ static struct br_value draw_value(struct br_random *r, size_t kind, char text[WO
 
 /* Begins with a table's number and the row's in words, so that rows and tables can be told apart.
  */
-static void draw_document(struct drawn *w, struct br_document *d, struct br_random *r)
+static void draw_document(struct drawn *w, struct br_document *d, struct br_test_random *r)
 {
     br_document_begin(d, "drawn", "beamrate drawn", 1, "Drawn");
-    w->tables = 1 + br_random_index(r, MOST_TABLES);
+    w->tables = 1 + br_test_index(r, MOST_TABLES);
     for (size_t t = 0; t < w->tables; t++) {
         char name[WORD];
         size_t kind[MOST_COLUMNS];
-        w->columns[t] = 2 + br_random_index(r, MOST_COLUMNS - 1);
-        w->rows[t] = 1 + br_random_index(r, MOST_ROWS);
+        w->columns[t] = 2 + br_test_index(r, MOST_COLUMNS - 1);
+        w->rows[t] = 1 + br_test_index(r, MOST_ROWS);
         snprintf(name, sizeof name, "t%zu", t);
         br_put_table(d, name, name, 0);
         for (size_t j = 0; j < w->columns[t]; j++) {
-            kind[j] = br_random_index(r, 4);
+            kind[j] = br_test_index(r, 4);
             snprintf(w->key[t][j], WORD, "c%zu", j);
         }
         for (size_t i = 0; i < w->rows[t]; i++) {
@@ -452,13 +451,65 @@ TEST(formats_have_the_same_cells)
                                            : 1;
     print_message("# seed %llu\n", (unsigned long long)seed);
     for (size_t i = 0; i < DRAWN; i++) {
-        struct br_random r = br_random_of(seed, i);
+        struct br_test_random r = br_test_random_of(seed, i);
         struct br_document d = {0};
         draw_document(&w, &d, &r);
         for (size_t f = 0; f < sizeof people / sizeof *people; f++)
             rows_are_in(people[f], &w, &d);
         csv_is(&w, &d);
         json_is(&w, &d);
+        br_document_clear(&d);
+    }
+}
+
+/* A unit of the first column, and first columns that not all see. */
+static void build_first(struct br_document *d)
+{
+    static const struct br_column hidden[] = {{.key = "pc", .flags = BR_FOR_PROGRAMS},
+                                              {.key = "one", .unit = "m"},
+                                              {.key = "two", .unit = "s"}};
+    static const struct br_column seen[] = {
+        {.key = "pe", .flags = BR_FOR_PEOPLE}, {.key = "one", .unit = "m"}, {.key = "two"}};
+    static const struct br_column both[] = {{.key = "one", .unit = "m"}, {.key = "two"}};
+    br_document_begin(d, "first", "f", 1, "First");
+    BR_TABLE(d, "t", "T", 0, hidden);
+    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
+    BR_TABLE(d, "u", "U", 0, seen);
+    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
+    BR_TABLE(d, "v", "V", 0, both);
+    BR_PUT_ROW(d, br_count(8), br_count(9));
+}
+
+TEST(test_first_columns)
+{
+    static const struct {
+        const struct br_document_format *format;
+        const char *text[3]; /* of each table */
+    } rows[] = {
+        {&br_document_text, {"\none, m  two, s\n", "\npe  one, m  two\n", "\none, m  two\n"}},
+        {&br_document_markdown,
+         {"\n| one, m | two, s |", "\n| pe | one, m | two |", "\n| one, m | two |"}},
+        {&br_document_latex, {"\none, m & two, s ", "\npe & one, m & two ", "\none, m & two "}},
+        {&br_document_html, {">one, m</th>", ">pe</th>", ">one, m</th>"}},
+        {&br_document_csv, {"pc,one [m],two [s]\n", "one [m],two\n8,9\n", "one [m],two\n8,9\n"}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_document d = {0};
+        size_t block = 0, size;
+        build_first(&d);
+        for (size_t t = 0; t < 3; t++) {
+            const struct br_document_table *table = br_document_next_table(&d, &block);
+            char *text = NULL;
+            FILE *out = open_memstream(&text, &size);
+            MUST(br_document_print(out, rows[i].format, &d, rows[i].format->by_table ? table : NULL,
+                                   &err));
+            assert_int_equal(fclose(out), 0);
+            if (!strstr(text, rows[i].text[t]) ||
+                (rows[i].format->by_table && strstr(text, rows[i].text[t]) != text))
+                fail_msg("%s, %zu: found '%s', expected '%s'", rows[i].format->name, t, text,
+                         rows[i].text[t]);
+            free(text);
+        }
         br_document_clear(&d);
     }
 }
