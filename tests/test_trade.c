@@ -304,6 +304,11 @@ TEST(test_lists_are_tried)
     CLOSE(br_trial_method(&t->trial[4]).tolerance, 1e-7, 1e-20);
     CLOSE(br_time_step(&scene, t->trial[0].at.steps), 0.1, 1e-15);
     drop(t);
+    t = laid_out(
+        &scene, "adaptive", /* beside steps that are not given */
+        &(struct br_trade_grid){.n = n, .tolerance = tolerance, .n_count = 1, .tolerances = 3});
+    assert_int_equal(t->count, 3);
+    drop(t);
     br_scene_clear(&scene);
 }
 
