@@ -167,9 +167,16 @@ static enum br_status check_times(const struct br_option *row, const char *text,
                                   struct br_error *err)
 {
     const bool one = strcmp(row->argument, "LIST") != 0;
+    bool bare = false, scaled = false; /* a number without a unit, and one in another unit than s */
     for (const char *rest = text;; rest++) {
-        double seconds;
+        double seconds, number;
         const char *end = br_read_time(rest, 1, &seconds);
+        const char *unit = end ? br_read_number(rest + strspn(rest, " "), &number) : NULL;
+        bare |= unit && unit + strspn(unit, " ") == end;
+        scaled |= unit && number != seconds;
+        if (bare && scaled)
+            return br_fail(err, BR_BAD_INPUT, "found '%s', expected a unit with each time or none",
+                           text);
         if (!end || !(seconds > 0) || (one && *end))
             return br_fail(err, BR_BAD_INPUT, "found '%s', expected %s", rest,
                            one ? "one time above 0, like 1e-3, 1 ms or T/1000"
