@@ -295,6 +295,12 @@ TEST(test_sizes_on_axes)
     br_made_report(&m, false);
     m.scene.length = 2;
     m.scene.duration = 0.5;
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        struct br_observed_order *o = &m.report.observed[BR_PART_TOTAL][axis];
+        *o = (struct br_observed_order){.asked = true, .points = 4};
+        for (int i = 0; i < 4; i++)
+            o->point[i] = (struct br_point){.z = (axis ? 0.5 : 2) / (10 << i), .error = 1};
+    }
     for (size_t i = 0; i < 3; i++) {
         struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
         for (const struct br_panel *p = f.panel; p < f.panel + f.panels; p++) {
