@@ -340,7 +340,7 @@ TEST(test_residuals)
                      of_k = 0.5 / (double)cell->at.steps - 0.5 / 1600;
         cell->error[BR_PART_TOTAL] = 1.25 * hypot(of_h, of_k);
     }
-    struct br_figure f = br_convergence_draw(br_convergence_pictures[2], &m.report);
+    struct br_figure f = br_convergence_draw(&br_convergence_pictures[2], &m.report);
     size_t drawn = 0;
     assert_int_equal(f.panels, 2);
     for (size_t i = 0; i < f.panel[1].count; i++)
