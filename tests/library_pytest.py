@@ -18,7 +18,8 @@ def test_grid(orders):
     orders.check({"h": [h for h, _ in grid], "k": [k for _, k in grid],
                   "L2 error": [h ** 2 + k for h, k in grid]}, {"L2 error": {"h": 2, "k": 1}})
 """
-os.chdir(tempfile.mkdtemp())
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
 Path("test_made.py").write_text(TEST)
 baseline = Path("orders-baseline.json")
 
