@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/observer.h"
 #include "base/quote.h"
 
 static enum br_status fail_with_errno(const char *path, struct br_error *err)
@@ -46,12 +47,18 @@ char *br_suggest_file(const char *path, char text[BR_SUGGESTION])
     return text;
 }
 
-/* Waits for bytes or for the end, however long a writer takes, but not for ever for a writer. */
+/* Waits for bytes or for the end, however long a writer takes, but not for ever for a writer. A
+ * signal that came before poll does not interrupt it. */
 static enum br_status wait_for(const char *path, int file, bool writer, struct br_error *err)
 {
-    enum { PATIENCE = 5 /* s */ };
+    enum { PATIENCE = 5 /* s */, PARTS = 10 /* of a second */ };
     struct pollfd wanted = {.fd = file, .events = POLLIN};
-    const int ready = poll(&wanted, 1, writer ? -1 : 1000 * PATIENCE);
+    int ready = 0;
+    for (int i = 0; !ready && (writer || i < PARTS * PATIENCE); i++) {
+        if (br_must_stop())
+            return br_fail(err, BR_INTERRUPTED, "interrupted");
+        ready = poll(&wanted, 1, 1000 / PARTS);
+    }
     if (ready < 0)
         return fail_with_errno(path, err);
     return ready ? BR_OK

@@ -51,6 +51,7 @@ bool br_signals_caught(void)
 void br_signals_raise_again(void)
 {
     const int number = caught ? caught : SIGINT;
+    fflush(stdout); /* it may name results that are written */
     signal(number, SIG_DFL);
     raise(number);
 }

@@ -16,7 +16,7 @@ done
 
 # made NAME: a program from standard input, which finds the folder in $W.
 made() {
-    { printf '#!/bin/sh\nW=%s\n' "$work" && cat; } >"$work/bin/$1"
+    { printf '#!/bin/sh\nW="%s"\n' "$work" && cat; } >"$work/bin/$1"
     chmod +x "$work/bin/$1"
 }
 made id <<'END'
@@ -192,7 +192,7 @@ mkdir -p "$work/tree/tests" "$work/tree/docs" "$work/tree/build/release/cli"
 printf '#!/bin/sh\necho the page "$@"\n' >"$work/tree/build/release/cli/beamrate"
 chmod +x "$work/tree/build/release/cli/beamrate"
 for tool in meson ninja; do
-    sed -i "1a echo $tool \${BR_TEST_UPDATE-} \$* >>$work/made_anew" "$work/bin/$tool"
+    sed -i "1a echo $tool \${BR_TEST_UPDATE-} \$* >>\"$work/made_anew\"" "$work/bin/$tool"
 done
 starts 0 0 'all that is generated' update
 for text in 'ninja .* update-golden' 'meson 1 test .* --suite stored'; do

@@ -279,7 +279,7 @@ fi
 # The path to a cell of a table: no more than 12 files, none longer than 250 lines.
 path=$(sed -n '/^## From a scene/,/^Other files/s/^[0-9]*\. \*\*.* in `\([^`]*\.c\)`).*/\1/p' \
     "$1/docs/architecture.md" | sort -u)
-long=$(cd "$1" && wc -l $path 2>&1 | awk '!($1 <= 250) && $2 != "total"')
+long=$(cd "$1" && LC_ALL=C wc -l $path 2>&1 | awk '!($1 <= 250) && $2 != "total"')
 if [ "$(echo "$path" | wc -l)" != 12 ] || [ -n "$long" ]; then
     echo "docs/architecture.md: the path to a cell must have 12 files of at most 250 lines:" >&2
     printf '%s\n' "${long:-$path}" >&2

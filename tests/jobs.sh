@@ -11,6 +11,7 @@ source=$1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
+export LC_ALL=C
 failures=0
 
 mkdir -p release/beamrate-0 bin work && cp -r "$source/docs/orders" work/

@@ -7,7 +7,7 @@
 set -u
 build=$1 source=$2
 : "${BEAMRATE:?is the program}"
-folder=$(mktemp -d)
+folder=$(mktemp -d -p /tmp) # pkg-config cannot give a folder with blanks to all shells
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 1
 number=0 failures=0
@@ -212,7 +212,7 @@ loop() {
         inside = 0 } inside { text = text $0 "\n" }' "$source/docs/library.md" >loop.py
     PATH=$prefix/bin:$PATH "$python" loop.py >loop.txt && cat loop.txt &&
         [ "$(wc -l <loop.txt)" -eq 13 ] && ! grep -E 'None|nan' loop.txt &&
-        tail -n 1 loop.txt | awk '{ exit !($2 < 2 && 2 < $3 && $3 - $2 < 0.5) }'
+        tail -n 1 loop.txt | LC_ALL=C awk '{ exit !($2 < 2 && 2 < $3 && $3 - $2 < 0.5) }'
 }
 export PYTHONPATH=$prefix/share/beamrate/python${PYTHONPATH:+:$PYTHONPATH}
 python=${PYTHON:-python3}

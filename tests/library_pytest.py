@@ -22,7 +22,8 @@ def test_two(orders):
         orders.check({"n": [8, 16, 32, 64, 128], f"e{order}": [i ** -order for i in (8, 16, 32, 64, 128)]},
                      {f"e{order}": 2})
 """
-os.chdir(tempfile.mkdtemp())
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
 Path("test_made.py").write_text(TEST)
 baseline = Path("orders-baseline.json")
 

@@ -46,8 +46,13 @@ for list in "$BEAMRATE_DATA"/debian/*.install; do
         failures=$((failures + 1))
     done <"$list"
 done
-# And each program is in a package.
+# And each program is in a package, with a manual page.
 for program in $(grep -oE '/bin/[a-z-]+"' <<<"$installed" | tr -d '"' | sort -u); do
+    page=share/man/man1/${program##*/}.1
+    { grep -q "/$page" <<<"$installed" || grep -q " usr/$page$" "$BEAMRATE_DATA"/debian/*.links; } || {
+        echo "debian: usr$program has no manual page"
+        failures=$((failures + 1))
+    }
     grep -qx "usr$program" "$BEAMRATE_DATA"/debian/*.install && continue
     echo "debian: usr$program is in no package"
     failures=$((failures + 1))

@@ -32,7 +32,7 @@ ends() {
     "$BEAMRATE" "$@" >out_beam 2>err_beam
     got=$?
     for file in out out_beam err err_beam; do # without its time, and the program's own name
-        sed -i 's/; [0-9.]* s$/; SECONDS/; s/then type: [^ ]*/then type: PROGRAM/' $file
+        sed -i 's/; [0-9.]* s$/; SECONDS/; s/then type: .*beamrate\(-orders\)*/then type: PROGRAM/' $file
     done
     if [ $got != "$code" ] || ! cmp -s out out_beam || ! cmp -s err err_beam; then
         fails "beamrate-orders $*: not what beamrate prints"

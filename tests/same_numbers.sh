@@ -9,6 +9,7 @@ set -u
 folder=$(mktemp -d) || exit 99
 trap 'rm -rf "$folder"' EXIT
 cd "$folder" || exit 99
+export LC_ALL=C # awk takes decimal commas from the locale
 number=0
 
 report() { # NAME WHAT: fails if the file `why` has lines

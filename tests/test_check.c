@@ -148,8 +148,8 @@ TEST(test_sizes)
     static const char *const sizes[BR_VERIFY_KINDS] = {
         "; expect it of n: 2, 16, 128, 1024, 8192, 65536",
         "; expect it of k: 0.001, 0.0005, 0.00025, 0.000125, 6.25e-05, 3.125e-05 s",
-        "; expect it of n: 10, 20, 40, 80, 160 k: 0.01, 0.0025, 0.000625, 0.00015625, "
-        "3.90625e-05 s"};
+        ("; expect it of n: 10, 20, 40, 80, 160 k: 0.01, 0.0025, 0.000625, 0.00015625, "
+         "3.90625e-05 s")};
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         const struct br_case *c = case_of(&m, (enum br_verify_kind)kind);
         if (c->verdict != BR_INCONCLUSIVE || !strstr(c->reason, sizes[kind]))

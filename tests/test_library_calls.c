@@ -424,12 +424,15 @@ static void *find_often(void *self)
         const char *json;
         if (beamrate_orders_read(&orders, &table, NULL))
             return NULL;
-        job->ended += !beamrate_orders_check(&check, orders, &expected, 1, NULL) &&
-                      !beamrate_check_case(check, 0, &job->verdict) &&
-                      beamrate_orders_answer(orders, 0, BEAMRATE_SPACE, &answer) == 1 &&
-                      !beamrate_orders_report(orders, &json, NULL);
-        job->found = answer.order;
-        snprintf(job->answer, sizeof job->answer, "%s", strstr(json, "\"answer\""));
+        const bool ended = !beamrate_orders_check(&check, orders, &expected, 1, NULL) &&
+                           !beamrate_check_case(check, 0, &job->verdict) &&
+                           beamrate_orders_answer(orders, 0, BEAMRATE_SPACE, &answer) == 1 &&
+                           !beamrate_orders_report(orders, &json, NULL);
+        if (ended) {
+            job->ended++;
+            job->found = answer.order;
+            snprintf(job->answer, sizeof job->answer, "%s", strstr(json, "\"answer\""));
+        }
         beamrate_check_free(check);
         beamrate_orders_free(orders);
         beamrate_orders_read(&orders, &wrong, &job->refusal);

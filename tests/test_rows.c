@@ -73,10 +73,11 @@ static void check_text(const char *where, const char *text, const char *part, bo
 }
 
 /* Returns the shell's exit code; its output goes to out.output. */
-static int run_shell(const char *line)
+static int run_shell(const char *line) /* awk takes decimal commas from the locale */
 {
     char command[MOST_ROW + 100];
-    snprintf(command, sizeof command, "exec 2>&1; cd '%s'; %s", cli_folder(), line);
+    snprintf(command, sizeof command, "exec 2>&1; export LC_ALL=C; cd '%s'; %s", cli_folder(),
+             line);
     FILE *pipe = popen(command, "r");
     assert_non_null(pipe);
     out.output[fread(out.output, 1, sizeof out.output - 1, pipe)] = '\0';

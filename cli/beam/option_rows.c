@@ -37,7 +37,7 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
 
 /* ---- options ---- */
 
-_Static_assert(BR_OPT_METHOD + BR_METHOD_FIELDS == BR_OPTIONS, "an option for each field");
+_Static_assert((int)BR_OPT_METHOD + BR_METHOD_FIELDS == BR_OPTIONS, "an option for each field");
 
 #define WHOLE(low, high) BR_RANGE(low, high, true)
 #define BETWEEN(low, high) BR_RANGE(low, high, false)
