@@ -48,9 +48,12 @@ static double deviation_of(const struct br_numbers_row *row, size_t quantity)
 double br_orders_rounding(const struct br_orders *o, size_t quantity,
                           const struct br_numbers_row *row)
 {
-    return row->repeat > 1 || isnan(row->number[quantity])
-               ? 0
-               : br_numbers_rounding(&o->numbers->quantity[quantity], row->number[quantity]);
+    enum { ALL = 12 }; /* so many digits are as good as all */
+    const struct br_quantity *q = &o->numbers->quantity[quantity];
+    const double number = row->number[quantity];
+    if (row->repeat > 1 || isnan(number) || q->digits > ALL || number == 0)
+        return 0;
+    return 0.5 * pow(10, q->fixed ? -q->decimals : floor(log10(fabs(number))) + 1 - q->digits);
 }
 
 bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row)
@@ -267,8 +270,7 @@ enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity
     if (!status)
         qsort(sorted, rows, sizeof *sorted, by_line);
     for (size_t first = 0, end; first < rows && !status; first = end) {
-        if (br_observer_stops(numbers->observer))
-            status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        status = br_observer_check(numbers->observer, err);
         for (end = first + 1; end < rows && sorted[end].other == sorted[first].other;)
             end++;
         if (!status && end - first >= BR_ORDERS_LEAST)

@@ -4,14 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "orders/expectation/growth.h"
-
-static enum br_status stopped(const struct br_numbers *numbers, struct br_error *err)
-{
-    return br_observer_stops(numbers->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                                : BR_OK;
-}
-
 /* ---- both axes ---- */
 
 static struct br_point *point_on(const struct br_quantity_orders *of, enum br_axis axis, size_t row)
@@ -183,7 +175,7 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->low99 = by->low99;
     c->high99 = by->high99;
-    c->law = NULL;
+    c->law = BR_LAW_POWER;
     snprintf(c->note, sizeof c->note, "%s", by->note);
 }
 
@@ -216,7 +208,7 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
     enum br_status status = BR_OK;
     for (size_t l = 0; l < of->lines && !status; l++) {
         struct br_case *c = &of->line[l].observed;
-        if (stopped(o->numbers, err))
+        if (br_observer_check(o->numbers->observer, err))
             return err->status;
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
         if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
@@ -434,7 +426,7 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     of->line = br_allocate(2 * numbers->rows, sizeof *of->line);
     if (!of->line)
         return br_no_memory(err, "the orders");
-    enum br_status status = stopped(numbers, err);
+    enum br_status status = br_observer_check(numbers->observer, err);
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = br_orders_add_lines(o, of, (enum br_axis)axis, err);

@@ -38,9 +38,6 @@ struct br_quantity {
     struct br_differences differences[BR_AXES];
 };
 
-/* Half a unit of the last digit to which a number of the quantity was printed; 0: it has all. */
-double br_numbers_rounding(const struct br_quantity *quantity, double number);
-
 /* One run of the program that made the numbers. */
 struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column, or a run that failed before
@@ -251,9 +248,6 @@ double br_orders_next(const struct br_orders *orders, const struct br_orders_for
  * finest, or as many cells. */
 double br_orders_needed(const struct br_orders *orders, const struct br_orders_forecast *f,
                         double wanted);
-
-/* The order in h, if the mesh had another dimension than the assumed one. */
-double br_orders_in_dimension(const struct br_orders *orders, double order, double dimension);
 
 /* Whether a column of errors hardly changes along its line, as a value does. */
 bool br_orders_stays(const struct br_orders_line *line);

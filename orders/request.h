@@ -64,7 +64,7 @@ struct br_orders_request {
     char *folder; /* of the study file; NULL: the current one */
     struct br_program_axis axis[BR_AXES];
     const struct br_reading *reading; /* readings */
-    size_t readings;
+    size_t readings, room;
     double seconds;   /* limit of one run */
     double repeat;    /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     const char *cost; /* of a trade: columns of costs are read, this one too, and runs are repeated
@@ -137,11 +137,6 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
  * BR_IO: no folder to run in, or a cell cannot be cached. */
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
-
-/* Makes a row for each run of the list or grid, from coarse to fine, with its resolution. numbers:
- * zeros. Fails as br_numbers_make_room. */
-enum br_status br_program_rows(const struct br_orders_request *request, struct br_numbers *numbers,
-                               struct br_error *err);
 
 /* A command at one resolution. */
 struct br_command_words {

@@ -145,12 +145,6 @@ static bool has_part(const struct br_numbers *n, size_t row, size_t q, enum br_a
            r->out[q] != BR_FLAG_BY_HAND;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The sizes of a quantity along an axis, from fine to coarse. */
 static size_t sizes_of(const struct br_numbers *n, size_t q, enum br_axis axis, double *z)
 {
@@ -158,7 +152,7 @@ static size_t sizes_of(const struct br_numbers *n, size_t q, enum br_axis axis, 
     for (size_t i = 0; i < n->rows; i++)
         if (has_part(n, i, q, axis))
             z[count++] = n->row[i].z[axis];
-    qsort(z, count, sizeof *z, by_size);
+    qsort(z, count, sizeof *z, br_by_number);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || z[i] > z[different - 1])
             z[different++] = z[i];

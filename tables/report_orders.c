@@ -37,7 +37,7 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
     for (int other = 1; other <= 3; other++)
         if (other != assumed) {
             br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
-                        br_orders_in_dimension(o, order, other));
+                        order * other / o->numbers->dimension);
             first = false;
         }
     br_put_more(d, ")");

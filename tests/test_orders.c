@@ -902,7 +902,6 @@ TEST(test_finer)
     find(table_of(4, 4, 2, 1), NULL); /* a grid */
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find("dofs,e\n64,.049382715604936\n256,.012345678901234\n1024,.0030864197253085\n", NULL);
-    CLOSE(br_orders_in_dimension(&found.orders, 2, 3), 3, 1e-12);
     f = br_orders_forecast_of(&found.orders, &found.orders.of[0]);
     br_orders_next(&found.orders, &f, &given);
     CLOSE(given, 4096, 0);

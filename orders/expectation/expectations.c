@@ -267,22 +267,6 @@ static enum br_status observe(const struct br_orders *o, const struct br_quantit
     return br_orders_observe(o->numbers->column[line->axis], BR_VERIFY_LEAST_POINTS, c, err);
 }
 
-/* A further case of a check; NULL: no memory. */
-static struct br_case *add_case(struct br_check *check)
-{
-    const size_t count = check->count;
-    if ((count & (count - 1)) == 0) { /* it is full */
-        struct br_case *more = br_allocate(count ? 2 * count : 1, sizeof *more);
-        if (!more)
-            return NULL;
-        if (count)
-            memcpy(more, check->cases, count * sizeof *more);
-        free(check->cases);
-        check->cases = more;
-    }
-    return &check->cases[check->count++];
-}
-
 /* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
 enum br_status br_orders_decide(const struct br_orders *o, const struct br_quantity_orders *of,
                                 const struct br_order_expectation *e, struct br_check *check,
@@ -298,9 +282,9 @@ enum br_status br_orders_decide(const struct br_orders *o, const struct br_quant
                        "line",
                        check->path, o->numbers->quantity[of->quantity].name,
                        br_axis_letters[e->axis]);
-    struct br_case *c = add_case(check);
-    if (!c)
+    if (!br_grow(&check->cases, check->count, &check->room, sizeof *check->cases))
         return br_no_memory(err, "the verdicts");
+    struct br_case *c = &check->cases[check->count++];
     if (joint ? br_orders_joint_case(o, of, e->axis, c, err)
               : observe(o, of, line, &e->band, c, err))
         return err->status;

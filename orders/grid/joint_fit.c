@@ -11,29 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "orders/grid/joint_model.h"
 
 #define LOG_C(axis) (BR_OF_AXIS * (axis) + BR_LOG_C)
 #define ORDER(axis) (BR_OF_AXIS * (axis) + BR_ORDER)
-
-bool br_joint_has(enum br_joint_kind kind, int axis)
-{
-    return kind != (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE);
-}
-
-struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
-{
-    const double half = freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, (double)freedom) * deviation : NAN;
-    return (struct br_estimate){value, value - half, value + half};
-}
-
-double br_akaike(double sum, size_t count, size_t unknowns)
-{
-    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
-    if (!(n > u + 1))
-        return INFINITY;
-    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
-}
 
 /* ---- the cells ---- */
 
@@ -77,12 +59,6 @@ struct search {
     size_t smooth, options; /* those from `smooth` on are of orders that change */
 };
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static size_t size_of(const struct br_joint_cells *c, int axis, double x)
 {
     size_t i = c->sizes[axis];
@@ -99,7 +75,7 @@ static void take_sizes(struct search *s, const struct br_observation *o, int axi
         value[2 * i] = o[i].x[axis];
         value[2 * i + 1] = o[i].ref[axis];
     }
-    qsort(value, 2 * c->count, sizeof *value, by_value);
+    qsort(value, 2 * c->count, sizeof *value, br_by_number);
     const double most = value[2 * c->count - 1];
     s->unit[axis] = log(most);
     c->sizes[axis] = 1;
@@ -121,7 +97,7 @@ static void take_cells(struct search *s, const struct br_observation *o)
     double *value = s->residual;
     for (size_t i = 0; i < c->count; i++)
         value[i] = log(o[i].error);
-    qsort(value, c->count, sizeof *value, by_value);
+    qsort(value, c->count, sizeof *value, br_by_number);
     s->log_error = value[c->count / 2];
     c->lowest = value[0] - s->log_error;
     for (size_t i = 0; i < c->count; i++) {
@@ -193,8 +169,7 @@ static void take_options(struct search *s)
 {
     enum { FEW = 3, BOTH = 3 };
     for (const struct br_family *f = br_families; f < br_families + BR_FAMILIES; f++) {
-        const bool is_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES ||
-                              f->law == BR_LAW_OFFSET,
+        const bool is_floor = br_law_is_floor(f->law),
                    bends = f->law == BR_LAW_NEXT ? f->prior > 0.015
                            : f->law == BR_LAW_SQUARES || f->law == BR_LAW_LOGARITHM
                                ? f->prior >= 0.005
@@ -699,39 +674,6 @@ static void describe(struct search *s, const struct candidate *c, struct br_join
                     structure_of(&s->used, s->residual) <= most_structure;
 }
 
-double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
-                      const double ref[BR_AXES])
-{
-    double e[BR_AXES] = {0};
-    for (int a = 0; a < BR_AXES; a++)
-        if (br_joint_has(fit->kind, a))
-            e[a] = fit->c[a].value *
-                   (pow(x[a], fit->order[a].value) - pow(ref[a], fit->order[a].value));
-    const double r = fit->kind == BR_JOINT_BOTH ? fit->r.value : 0;
-    const double square = e[0] * e[0] + 2 * r * e[0] * e[1] + e[1] * e[1];
-    return sqrt(square < 0 ? 0 : square); /* NaN stays */
-}
-
-/* Where the errors of both axes subtract, an order inside the interval may show the least error. */
-struct br_estimate br_joint_band(const struct br_joint_fit *fit, enum br_axis axis, double middle,
-                                 const double x[BR_AXES], const double ref[BR_AXES])
-{
-    enum { ORDERS = 32 }; /* of the interval, from end to end; the last one is the order itself */
-    const struct br_estimate *order = &fit->order[axis];
-    struct br_estimate e = {NAN, NAN, NAN};
-    for (size_t i = 0; i <= ORDERS + 1; i++) {
-        struct br_joint_fit other = *fit;
-        double *p = &other.order[axis].value;
-        if (i <= ORDERS)
-            *p = order->low + (double)i / ORDERS * (order->high - order->low);
-        other.c[axis].value *= pow(middle, order->value - *p);
-        e.value = br_joint_model(&other, x, ref);
-        e.low = fmin(e.low, e.value); /* without the NaN of before */
-        e.high = fmax(e.high, e.value);
-    }
-    return e;
-}
-
 /* ---- one model, or the mixture ---- */
 
 static int by_weight(const void *a, const void *b)
@@ -922,12 +864,5 @@ enum br_status br_joint_fit_solve(struct br_observation *observation, size_t cou
     free(s.all.room);
     free(s.far);
     free(s.candidate);
-    if (!status && br_observer_stops(observer))
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    return status;
-}
-
-bool br_joint_describes(const struct br_joint_fit *fit)
-{
-    return fit->converged && (fit->misfit <= 0.02 || fit->scatters);
+    return status ? status : br_observer_check(observer, err);
 }

@@ -6,6 +6,11 @@
 
 #define OF(axis, what) (BR_OF_AXIS * (axis) + (what))
 
+bool br_joint_has(enum br_joint_kind kind, int axis)
+{
+    return kind != (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE);
+}
+
 static bool has_unknown(const struct br_family *f, int unknown)
 {
     return unknown <= BR_ORDER ||
@@ -381,13 +386,6 @@ void br_joint_approach(struct br_joint_cells *cells, double robust, struct br_jo
     minimise(cells, &e, t, cells->priors ? 0.1 : 1e-12);
 }
 
-/* What a known deviation adds to the scale of Student's distribution, so that it widens the 95 %
- * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
-static double of_known(double freedom)
-{
-    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
-}
-
 /* How large the corrections of an axis are, 0 to 1. */
 static double change_of(const struct br_joint_cells *cells, const struct br_joint_trial *t,
                         int axis)
@@ -434,7 +432,7 @@ static void set_open(const struct br_joint_cells *cells, const struct equations 
     const double change = change_of(cells, t, axis);
     t->open[axis] = hypot(slope * (br_priors.sure + br_priors.truncation * change +
                                    br_priors.next_term * change * change),
-                          of_known(t->freedom) * by_digits(cells, axis, share));
+                          br_scale_of_known(t->freedom) * by_digits(cells, axis, share));
 }
 
 /* The sum without priors, the covariance, and what follows from it. */
@@ -509,4 +507,44 @@ double br_joint_shape_start(const struct br_family *f)
            : f->law == BR_LAW_KINK      ? 0.5
            : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1.5 * f->low))
                                         : log(f->low * f->high) / 2;
+}
+
+/* ---- a fit, once it is found ---- */
+
+bool br_joint_describes(const struct br_joint_fit *fit)
+{
+    return fit->converged && (fit->misfit <= 0.02 || fit->scatters);
+}
+
+double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
+                      const double ref[BR_AXES])
+{
+    double e[BR_AXES] = {0};
+    for (int a = 0; a < BR_AXES; a++)
+        if (br_joint_has(fit->kind, a))
+            e[a] = fit->c[a].value *
+                   (pow(x[a], fit->order[a].value) - pow(ref[a], fit->order[a].value));
+    const double r = fit->kind == BR_JOINT_BOTH ? fit->r.value : 0;
+    const double square = e[0] * e[0] + 2 * r * e[0] * e[1] + e[1] * e[1];
+    return sqrt(square < 0 ? 0 : square); /* NaN stays */
+}
+
+/* Where the errors of both axes subtract, an order inside the interval may show the least error. */
+struct br_estimate br_joint_band(const struct br_joint_fit *fit, enum br_axis axis, double middle,
+                                 const double x[BR_AXES], const double ref[BR_AXES])
+{
+    enum { ORDERS = 32 }; /* of the interval, from end to end; the last one is the order itself */
+    const struct br_estimate *order = &fit->order[axis];
+    struct br_estimate e = {NAN, NAN, NAN};
+    for (size_t i = 0; i <= ORDERS + 1; i++) {
+        struct br_joint_fit other = *fit;
+        double *p = &other.order[axis].value;
+        if (i <= ORDERS)
+            *p = order->low + (double)i / ORDERS * (order->high - order->low);
+        other.c[axis].value *= pow(middle, order->value - *p);
+        e.value = br_joint_model(&other, x, ref);
+        e.low = fmin(e.low, e.value); /* without the NaN of before */
+        e.high = fmax(e.high, e.value);
+    }
+    return e;
 }

@@ -35,7 +35,9 @@ static enum br_status text_of(const struct job *j, const struct br_command_words
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_statement s;
-    br_cache_begin(j->cache, "run", &s);
+    br_statement_begin(&s);
+    br_state(&s, "beamrate-cache", "%s", "4");
+    br_state(&s, "work", "%s", "run");
     const enum br_status status = br_command_state(&s, cell, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
@@ -79,19 +81,13 @@ enum { LEAST_RUNS = 6, MOST_RUNS = 30 };                       /* six hold the m
 static const double longest = 10;                              /* all runs of a cell, s */
 static const double known = 0.05, scatter = 0.1, least = 1e-4; /* s: less is not known */
 
-static int by_time(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /* The median of times, which it sorts; *half (out): of its 95 % interval, by ranks. Of a few runs
  * the clock's usual scatter at least. */
 static double median(double *time, size_t runs, double *half)
 {
     const double count = (double)runs, rank = floor((count - 1.96 * sqrt(count)) / 2);
     const size_t low = rank > 1 ? (size_t)rank - 1 : 0;
-    qsort(time, runs, sizeof *time, by_time);
+    qsort(time, runs, sizeof *time, br_by_number);
     const double middle = (time[(runs - 1) / 2] + time[runs / 2]) / 2;
     *half = fmax((time[runs - 1 - low] - time[low]) / 2, least);
     if (runs < LEAST_RUNS)
@@ -213,8 +209,9 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-enum br_status br_program_rows(const struct br_orders_request *p, struct br_numbers *numbers,
-                               struct br_error *err)
+/* Makes a row for each run of the list or grid, from coarse to fine, with its resolution. */
+static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
+                                struct br_error *err)
 {
     const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
@@ -400,9 +397,8 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
     if (program->readings == 0)
         return br_fail(err, BR_BAD_INPUT,
                        "found nothing to read, expected the name of a number and where it is");
-    bool failed = br_program_rows(program, numbers, err) ||
-                  make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                  (program->cache && open_cache(&j, err));
+    bool failed = make_rows(program, numbers, err) || make_quantities(program, numbers, err) ||
+                  check_commands(&j, err) || (program->cache && open_cache(&j, err));
     const struct br_each each = {.count = numbers->rows,
                                  .threads = program->cost ? 1 : program->jobs,
                                  .observer = program->observer,

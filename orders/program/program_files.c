@@ -26,9 +26,8 @@ static const char *named(const struct br_command_words *c, size_t i, struct stat
 
 static bool sum_of(const char *path, char text[BR_SHA256_TEXT])
 {
-    long long size;
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    const bool read = file >= 0 && br_sha256_file(file, &size, text);
+    const bool read = file >= 0 && br_sha256_file(file, text);
     if (file >= 0)
         close(file);
     return read;

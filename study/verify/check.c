@@ -324,7 +324,7 @@ enum br_status br_check_run(const struct br_scene_check *checks, size_t count, i
         struct br_check *check = checks[i].check;
         check->failure = (struct br_error){0};
         check->cases = NULL;
-        check->count = 0;
+        check->count = check->room = 0;
         check->seconds = check->element_steps = 0;
     }
     struct plan plan = {0};
