@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/quote.h"
+#include "base/sha256.h"
 #include "base/words.h"
 
 struct br_orders_request br_orders_request_default(void)
@@ -49,8 +50,6 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
                               struct br_error *err)
 {
     *numbers = (struct br_numbers){0};
-    if (!r->command && !r->table)
-        return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
     const enum br_status status = (r->command ? br_program_run : br_table_read)(r, numbers, err);
     numbers->observer = r->observer;
     return status || br_numbers_check(numbers, br_orders_path(r), err) ||

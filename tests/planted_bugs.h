@@ -936,8 +936,8 @@ static const struct planted_bug planted_bugs[] = {
     {"commands_in_words_are_run", "lost", "orders/program/program_words.c",
      "tests/test_program test_shell_lines", "WRDE_NOCMD | WRDE_UNDEF", "WRDE_UNDEF"},
     {"changed_program_passes", "wrong", "orders/program/program.c", "tests/test_program test_changes",
-     "br_command_stamp(words) != j->stamp[i]", "false"},
-    {"renamed_program_is_the_same", "wrong", "orders/program/program_files.c",
+     "stamp_of(words) != j->stamp[i]", "false"},
+    {"renamed_program_is_the_same", "wrong", "orders/program/program.c",
      "tests/test_program test_changes", "(uint64_t)info.st_ino,", "0,"},
     {"index_without_its_limits", "lost", "orders/limits/grid_convergence.c",
      "tests/test_grid_convergence", "fmin(fmax(0.5, gci->order), formal)", "gci->order"},
@@ -1599,9 +1599,9 @@ static const struct planted_bug planted_bugs[] = {
     /* ---- runs that are cached ---- */
     {"readings_do_not_matter", "lost", "orders/program/program.c", "tests/test_program test_cache",
      "br_state(&s, kinds[reading->kind], \"%s\", reading->what);", ""},
-    {"words_do_not_matter", "lost", "orders/program/program_files.c", "tests/test_program test_cache",
+    {"words_do_not_matter", "lost", "orders/program/program.c", "tests/test_program test_cache",
      "br_state(s, \"word\", \"%s\", *word);", ""},
-    {"files_do_not_matter", "lost", "orders/program/program_files.c",
+    {"files_do_not_matter", "lost", "orders/program/program.c",
      "tests/test_program test_cached_script", "br_state(s, \"file\", \"%s\", text);", ""},
     /* ---- the library ---- */
     {"handler_of_the_host_not_put_back", "stale", "orders/library/library.c",
