@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#define OF(axis, what) (BR_OF_AXIS * (axis) + (what))
-
 bool br_joint_has(enum br_joint_kind kind, int axis)
 {
     return kind != (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE);
@@ -23,7 +21,7 @@ size_t br_joint_unknowns(const struct br_joint_law *law, int unknown[BR_UNKNOWNS
     for (int a = 0; a < BR_AXES; a++)
         for (int u = 0; u < BR_OF_AXIS && br_joint_has(law->kind, a); u++)
             if (has_unknown(law->of[a], u))
-                unknown[count++] = OF(a, u);
+                unknown[count++] = BR_OF(a, u);
     if (law->kind == BR_JOINT_BOTH && law->sum == BR_SUM_ANY)
         unknown[count++] = BR_THETA;
     if (law->floor)
@@ -52,7 +50,7 @@ static void fill_axis(const struct br_joint_cells *cells, const struct br_joint_
 {
     static const double step = 1e-4;
     const struct br_family *f = law->of[axis];
-    const double *v = &value[OF(axis, 0)], finest = cells->log_finest[axis];
+    const double *v = &value[BR_OF(axis, 0)], finest = cells->log_finest[axis];
     const double coarsest = f ? bend(f, v, 0, finest) : 0;
     double up[BR_OF_AXIS], down[BR_OF_AXIS];
     for (struct br_joint_size *s = cells->size[axis]; s < cells->size[axis] + cells->sizes[axis];
@@ -87,7 +85,7 @@ static bool allowed(const struct br_joint_law *law, const double value[BR_UNKNOW
     const double least = alone ? 0 : br_priors.least_order;
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_family *f = law->of[a];
-        const double *v = &value[OF(a, 0)], shape = f ? v[BR_SHAPE] : 0;
+        const double *v = &value[BR_OF(a, 0)], shape = f ? v[BR_SHAPE] : 0;
         if (!br_joint_has(law->kind, a))
             continue;
         if (!(v[BR_ORDER] > least && v[BR_ORDER] < most_order && fabs(shape) < 12))
@@ -140,7 +138,7 @@ static double residual_of(const struct br_joint_cells *cells, const struct mixin
         for (int a = 0; a < BR_AXES; a++) {
             const double factor = (e[a] + r * e[1 - a]) / square;
             for (int u = 0; u < BR_OF_AXIS; u++)
-                rate[OF(a, u)] = factor * (at[a]->rate[u] - ref[a]->rate[u]);
+                rate[BR_OF(a, u)] = factor * (at[a]->rate[u] - ref[a]->rate[u]);
         }
         rate[BR_THETA] = e[0] * e[1] / square * mix->rate;
         rate[BR_LOG_F] = mix->adds ? level / all : level * level / square;
@@ -357,7 +355,7 @@ static void minimise(struct br_joint_cells *cells, struct equations *e, struct b
             most = fmax(most, fabs(step[j]));
         }
         for (int a = 0; a < BR_AXES; a++) {
-            double *place = &next[OF(a, BR_PLACE)];
+            double *place = &next[BR_OF(a, BR_PLACE)];
             if (t->law.of[a] && t->law.of[a]->law == BR_LAW_KINK)
                 *place = fmin(fmax(*place, t->law.of[a]->low), t->law.of[a]->high);
         }
@@ -393,9 +391,9 @@ static double change_of(const struct br_joint_cells *cells, const struct br_join
     const struct br_family *f = t->law.of[axis];
     double most = 0;
     for (size_t i = 1; i < cells->sizes[axis] && f && f->law != BR_LAW_KINK; i++) {
-        const double off = fabs(
-            bend(f, &t->value[OF(axis, 0)], cells->size[axis][i].log_x, cells->log_finest[axis]) -
-            t->bend[axis]);
+        const double off = fabs(bend(f, &t->value[BR_OF(axis, 0)], cells->size[axis][i].log_x,
+                                     cells->log_finest[axis]) -
+                                t->bend[axis]);
         most = fmax(most, off / (1 + off));
     }
     return most;
@@ -466,7 +464,7 @@ static void finish(struct br_joint_cells *cells, struct equations *e, struct br_
             t->covariance[i][j] = dot(inverse[i], inverse[j], n);
     for (int a = 0; a < BR_AXES; a++)
         t->bend[a] =
-            t->law.of[a] ? bend(t->law.of[a], &t->value[OF(a, 0)], 0, cells->log_finest[a]) : 0;
+            t->law.of[a] ? bend(t->law.of[a], &t->value[BR_OF(a, 0)], 0, cells->log_finest[a]) : 0;
     for (size_t j = 0; j < n; j++)
         if (e->unknown[j] < BR_THETA && e->unknown[j] % BR_OF_AXIS == BR_ORDER)
             set_open(cells, e, j, e->unknown[j] / BR_OF_AXIS, t);
@@ -493,9 +491,9 @@ void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AX
         for (size_t i = 0; i < cells->count; i++)
             if (cells->size[a][cells->cell[i].at[a]].x == 1)
                 least = fmin(least, cells->cell[i].log_error);
-        value[OF(a, BR_LOG_C)] = isfinite(least) ? least : 0;
-        value[OF(a, BR_ORDER)] = order[a];
-        value[OF(a, BR_SHAPE)] = value[OF(a, BR_PLACE)] = 0;
+        value[BR_OF(a, BR_LOG_C)] = isfinite(least) ? least : 0;
+        value[BR_OF(a, BR_ORDER)] = order[a];
+        value[BR_OF(a, BR_SHAPE)] = value[BR_OF(a, BR_PLACE)] = 0;
     }
     value[BR_THETA] = asin(r);
     value[BR_LOG_F] = cells->lowest - log(2);
