@@ -15,7 +15,7 @@ struct br_orders_forecast br_orders_forecast_of(const struct br_orders *o,
     if (!line)
         return f;
     const struct br_case *c = &line->observed;
-    const bool is_value = o->numbers->quantity[of->quantity].is_value;
+    const bool is_value = br_quantity_of(o, of)->is_value;
     const size_t last = c->points - 1 + is_value;
     f = (struct br_orders_forecast){line, line->limits.gci.fine.index, line->limits.gci.order,
                                     o->numbers->row[line->row[last]].z[line->axis], NAN};

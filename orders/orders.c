@@ -145,7 +145,7 @@ static bool is_scatter(const struct br_orders_line *line)
  */
 static bool is_fine(const struct br_orders *o, const struct br_quantity_orders *of, size_t line)
 {
-    if (!(o->numbers->quantity[of->quantity].formal[of->line[line].axis] > 0))
+    if (!(br_quantity_of(o, of)->formal[of->line[line].axis] > 0))
         return false;
     return line + 2 >= of->lines || of->line[line + 2].axis != of->line[line].axis;
 }
@@ -224,7 +224,7 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
 static enum br_status observe_all(const struct br_orders *o, struct br_quantity_orders *of,
                                   struct br_error *err)
 {
-    const bool joint = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    const bool joint = br_orders_is_grid(o) && !br_quantity_of(o, of)->is_value;
     enum br_status status = joint ? fit_both(o, of, err) : BR_OK;
     const bool described = joint && br_joint_describes(&of->joint);
     if (!status)
@@ -279,7 +279,7 @@ static struct br_orders_answer answer_of_grid(const struct br_orders *o,
         "sizes of both would show the order";
     const struct br_orders_line *finest = br_orders_finest(of, axis);
     const struct br_estimate *joint = &of->joint.order[axis];
-    const bool both = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    const bool both = br_orders_is_grid(o) && !br_quantity_of(o, of)->is_value;
     if (br_joint_describes(&of->joint)) {
         const bool sure = br_order_determined(joint), small = of->joint.share[axis] < 0.5;
         return (struct br_orders_answer){*joint,
@@ -345,10 +345,10 @@ static bool is_hidden(const struct br_orders *o, const struct br_quantity_orders
                       const struct br_orders_line *line)
 {
     static const double share = 0.1;
-    const enum br_axis other = line->axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
+    const int other = !line->axis;
     const struct br_point *finest = finest_of(&line->observed),
                           *alone = finest_of(&of->differences[other].observed);
-    const double p = o->numbers->quantity[of->quantity].formal[other];
+    const double p = br_quantity_of(o, of)->formal[other];
     return finest && alone &&
            alone->error * pow(o->numbers->row[line->row[0]].z[other], p) >
                share * finest->error * (pow(alone->z, p) - pow(alone->z_against, p));
@@ -370,7 +370,7 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     static const char *const hidden[BR_AXES] = {
         "the error in k hides the order in h: a finer k, or a coarser h, would show it",
         "the error in h hides the order in k: a finer h, or a coarser k, would show it"};
-    const struct br_quantity *q = &o->numbers->quantity[of->quantity];
+    const struct br_quantity *q = br_quantity_of(o, of);
     const struct br_orders_line *line = &of->differences[axis];
     struct br_orders_answer grid = answer_of_grid(o, of, axis);
     if (!grid.joint && grid.line && is_hidden(o, of, grid.line))

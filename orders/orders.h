@@ -180,6 +180,12 @@ struct br_orders {
     bool tied; /* both axes are refined from each row to the next, along one line */
 };
 
+static inline const struct br_quantity *br_quantity_of(const struct br_orders *orders,
+                                                       const struct br_quantity_orders *of)
+{
+    return &orders->numbers->quantity[of->quantity];
+}
+
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
  * flag. formal: the order of theory for values, for the intervals of their limits; 0: nobody stated
  * it, and it is 2. The numbers are borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it

@@ -1413,7 +1413,7 @@ static const struct planted_bug planted_bugs[] = {
     {"degree_has_an_order", "lost", "orders/orders.c", "tests/test_orders test_kinds_of_tables",
      "|| size->is_degree))", "|| !size))"},
     {"joint_orders_exchanged", "expected", "orders/lines.c", "tests/test_orders",
-     "br_case_take_order(c, answer->order,", "br_case_take_order(c, of->answer[other(axis)].order,"},
+     "br_case_take_order(c, answer->order,", "br_case_take_order(c, of->answer[!axis].order,"},
     {"verdict_beside_the_answer", "expected", "orders/expectation/expectations.c",
      "tests/test_orders test_orders_that_a_grid_hides", "c->open = answer->open;", ""},
     {"order_of_a_bent_line", "expected", "orders/orders.c",

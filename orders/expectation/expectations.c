@@ -280,8 +280,7 @@ enum br_status br_orders_decide(const struct br_orders *o, const struct br_quant
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of %s in %s is expected, and there are no three sizes of one "
                        "line",
-                       check->path, o->numbers->quantity[of->quantity].name,
-                       br_axis_letters[e->axis]);
+                       check->path, br_quantity_of(o, of)->name, br_axis_letters[e->axis]);
     if (!br_grow(&check->cases, check->count, &check->room, sizeof *check->cases))
         return br_no_memory(err, "the verdicts");
     struct br_case *c = &check->cases[check->count++];
