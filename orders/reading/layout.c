@@ -96,7 +96,7 @@ static enum br_status choose(struct layout *l, size_t first)
     long most = 0;
     size_t widest = 0, width = 0;
     int best = 0;
-    for (int i = 0; i < 2 * BR_SEPARATORS; i++) {
+    for (int i = 2 * BR_BY_EQUALS; i < 2 * BR_SEPARATORS; i++) {
         l->by = (enum br_separator)(i / 2);
         l->fields->mark = ".,"[i % 2];
         const long score = measure(l);
@@ -110,6 +110,8 @@ static enum br_status choose(struct layout *l, size_t first)
     }
     l->by = (enum br_separator)(best / 2);
     l->fields->mark = ".,"[best % 2];
+    if (!most && measure(l) > 0) /* by words */
+        width = l->width;
     l->width = l->fields->columns = width;
     const bool wide = width > BR_MOST_COLUMNS || (!width && widest > BR_MOST_COLUMNS);
     return width && !wide
@@ -705,6 +707,44 @@ static enum br_status take_fields(struct layout *l)
     return check_marks(l) || trim_columns(l) ? l->err->status : BR_OK;
 }
 
+/* Turns a table whose rows are the sizes and the errors: "h,1/2,1/4,1/8", with the name of a size
+ * among its names, and numbers behind them. */
+static enum br_status turn(const struct layout *l)
+{
+    struct br_fields *f = l->fields;
+    const size_t rows = f->columns ? f->columns - 1 : 0, columns = f->rows;
+    bool has_size = false;
+    for (size_t i = 0; i < columns; i++) {
+        const char *const *field = &f->field[i * f->columns];
+        for (size_t j = 0; j < f->columns; j++) {
+            struct br_field_number number;
+            if ((j == 0) != (field[j] && !br_field_is_missing(field[j]) &&
+                             !br_field_read(field[j], f->mark, &number)))
+                return BR_OK;
+        }
+        has_size |= br_size_name_odds(field[0]) > BR_ANY_NAME;
+    }
+    if (f->heading_line || !has_size || rows < 2 || columns > BR_MOST_COLUMNS)
+        return BR_OK;
+    const char **turned = br_store_take(&f->store, rows * columns, sizeof *turned);
+    size_t *line = br_store_take(&f->store, rows, sizeof *line);
+    f->is_words = br_store_take(&f->store, columns, sizeof *f->is_words);
+    if (f->store.failed)
+        return br_no_memory(l->err, "the table");
+    for (size_t i = 0; i < columns; i++)
+        f->heading[i] = f->field[i * f->columns];
+    for (size_t i = 0; i < rows * columns; i++)
+        turned[i] = f->field[i % columns * f->columns + i / columns + 1];
+    for (size_t i = 0; i < rows; i++)
+        line[i] = f->line[0];
+    f->heading_line = f->line[0];
+    f->field = turned;
+    f->line = line;
+    f->rows = rows;
+    f->columns = columns;
+    return BR_OK;
+}
+
 /* Names all lines that are in no row. */
 static void leave_lines(const struct layout *l)
 {
@@ -748,7 +788,7 @@ static enum br_status lay_out(struct layout *l)
     const enum br_status status = find_heading(l);
     if (store->failed)
         return br_no_memory(l->err, "the table");
-    if (status || check_one_table(l) || check_blocks(l) || take_fields(l))
+    if (status || check_one_table(l) || check_blocks(l) || take_fields(l) || turn(l))
         return l->err->status;
     leave_lines(l);
     return BR_OK;

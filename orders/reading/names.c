@@ -315,6 +315,14 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
     return best > 0 ? best : most >= definite ? fmin(excluded, unknown) : unknown;
 }
 
+double br_size_name_odds(const char *name)
+{
+    double most = BR_ANY_NAME;
+    for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
+        most = fmax(most, br_name_odds(name, NULL, c));
+    return most;
+}
+
 /* A field that says that there is no number, beside those that number.c knows. */
 bool br_is_gap(const char *text)
 {
