@@ -389,15 +389,6 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                     100 * br_gci_limited(&line->limits.gci, o->formal));
 }
 
-/* Where costs differ, and grow by more than a tenth of an order. */
-static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis,
-                       bool differ)
-{
-    if (differ && growth->value >= 0.1 && growth->low > 0 && br_order_determined(growth))
-        br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
-                      br_order_text(growth, (char[64]){0}, 64));
-}
-
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
 {
     for (int axis = 0; axis < BR_AXES; axis++)
@@ -626,7 +617,10 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     if (o->count > MOST_NAMED)
         br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
-        say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
+        if (br_orders_costs_differ(o) && growth[axis].value >= 0.1 && growth[axis].low > 0 &&
+            br_order_determined(&growth[axis]))
+            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
+                          br_order_text(&growth[axis], (char[64]){0}, 64));
     say_missing(d, o);
     if (o->tied)
         br_put_answer(d,

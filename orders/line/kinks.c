@@ -3,14 +3,6 @@
 
 #include "orders/line/mixture.h"
 
-/* The rows of an exact power, with a second correction of those before `middle`, or behind it. */
-static void bend_at(const struct br_rows *r, size_t middle, bool behind)
-{
-    br_rows_plain(r);
-    for (size_t i = 0; i < r->count; i++)
-        r->curve[i] = behind ? fmin(0, r->x[i] - r->x[middle]) : fmax(0, r->x[i] - r->x[middle]);
-}
-
 /* Whether the order of two powers may be that of the coarse rows: where these are more, or the fine
  * ones few. */
 static bool coarse_may_count(size_t coarse_rows, size_t fine_rows)
@@ -26,7 +18,9 @@ static void add_kink(struct br_mixture *all, const struct br_rows *r, size_t mid
     enum { SIDE = 2 };
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double share = behind ? br_priors.kink_coarse : 1 - br_priors.kink_coarse;
-    bend_at(r, middle, behind);
+    br_rows_plain(r); /* with a correction of those before `middle`, or behind it */
+    for (size_t i = 0; i < n; i++)
+        r->curve[i] = behind ? fmin(0, r->x[i] - r->x[middle]) : fmax(0, r->x[i] - r->x[middle]);
     for (size_t first = 0; first + SIDE <= middle; first += stride) {
         struct br_sums s = {.start = r->y[n - 1],
                             .order = r->order,

@@ -301,12 +301,6 @@ static void descend(struct search *s, const struct br_family *f, const struct ce
     }
 }
 
-static struct br_windows all_windows(const struct br_mixture *all, const struct br_rows *r)
-{
-    return (struct br_windows){
-        .first_most = r->count - (all->few ? 2 : 3), .last_most = r->count - 1, .outlier = true};
-}
-
 static void add_laws(struct br_mixture *all, const struct br_rows *r, double log_prior)
 {
     static const struct br_family power = {.law = BR_LAW_POWER};
@@ -321,7 +315,8 @@ static void add_laws(struct br_mixture *all, const struct br_rows *r, double log
                                  .log_gamma = all->log_gamma}};
     all->prior = log_prior;
     all->keeps = kept;
-    all->within = s.rough.within = all_windows(all, r);
+    all->within = s.rough.within = (struct br_windows){
+        .first_most = r->count - (all->few ? 2 : 3), .last_most = r->count - 1, .outlier = true};
     all->within_cell = 0;
     set_family(r, &power);
     add_law(all, r, &power, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));

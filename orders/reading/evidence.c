@@ -59,11 +59,6 @@ static bool may_have_errors(const struct view *v, size_t i)
            c->kind != BR_KIND_LOGARITHM;
 }
 
-static double of_digit(const struct br_role_column *c, size_t row)
-{
-    return fabs(c->rounding[row] * c->number[row]);
-}
-
 struct residual {
     size_t compared;
     double worst; /* that is beyond the digits */
@@ -93,7 +88,8 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         if (isnan(rate->number[row]) || !isfinite(observed))
             continue;
         const double off = fabs(observed - (sign < 0 ? -1 : 1) * rate->number[row]);
-        const double beyond = off - fmin(most, fmax(least, of_digit(rate, row)));
+        const double beyond =
+            off - fmin(most, fmax(least, fabs(rate->rounding[row] * rate->number[row])));
         if (beyond > coarse && beyond <= digits / p.ratio) /* too few digits to tell */
             continue;
         found.worst = fmax(found.worst, beyond - fmin(coarse, digits / p.ratio));
@@ -175,16 +171,11 @@ static bool grows_in(const struct view *v, double dimension)
                               grows_by(v, 0, pow(1.5, dimension), false)));
 }
 
-/* Whether the heading is a usual name of any size. */
-static bool has_usual_name(const struct view *v)
-{
-    return own(v)->by_hand || own(v)->named > BR_ANY_NAME;
-}
-
 static double grows(const struct view *v)
 {
     const struct br_resolution_column *c = v->candidate->size.states;
-    const double odds = has_usual_name(v) ? 1 : 0.25; /* anything may grow so */
+    /* without a usual name of a size it may be anything */
+    const double odds = own(v)->by_hand || own(v)->named > BR_ANY_NAME ? 1 : 0.25;
     if (c->is_volume)
         return odds * grows_in(v, v->candidate->size.dimension);
     return odds * (c->more && grows_by(v, c->more, 2, false));
