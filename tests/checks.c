@@ -72,9 +72,27 @@ double br_test_log_uniform(struct br_test_random *random, double low, double hig
     return exp(br_test_uniform(random, log(low), log(high)));
 }
 
+double br_test_decades(struct br_test_random *random, double low, double high)
+{
+    return pow(10, br_test_uniform(random, low, high));
+}
+
 size_t br_test_index(struct br_test_random *random, size_t count)
 {
     return (size_t)(next(random) % count);
+}
+
+bool br_test_once_in(struct br_test_random *random, size_t times)
+{
+    return br_test_index(random, times) == 0;
+}
+
+struct br_test_random br_test_random_of(uint64_t seed, size_t index)
+{
+    struct br_test_random random = {seed};
+    random.state = next(&random) ^ ((uint64_t)index * 0xd1342543de82ef95u);
+    next(&random);
+    return random;
 }
 
 bool br_test_quick(void)

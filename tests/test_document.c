@@ -211,6 +211,58 @@ TEST(test_formats)
     br_test_stored("pages", print_pages, 0);
 }
 
+/* A unit of the first column, and first columns that not all see. */
+static void build_first(struct br_document *d)
+{
+    static const struct br_column hidden[] = {{.key = "pc", .flags = BR_FOR_PROGRAMS},
+                                              {.key = "one", .unit = "m"},
+                                              {.key = "two", .unit = "s"}};
+    static const struct br_column seen[] = {
+        {.key = "pe", .flags = BR_FOR_PEOPLE}, {.key = "one", .unit = "m"}, {.key = "two"}};
+    static const struct br_column both[] = {{.key = "one", .unit = "m"}, {.key = "two"}};
+    br_document_begin(d, "first", "f", 1, "First");
+    BR_TABLE(d, "t", "T", 0, hidden);
+    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
+    BR_TABLE(d, "u", "U", 0, seen);
+    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
+    BR_TABLE(d, "v", "V", 0, both);
+    BR_PUT_ROW(d, br_count(8), br_count(9));
+}
+
+TEST(test_first_columns)
+{
+    static const struct {
+        const struct br_document_format *format;
+        const char *text[3]; /* of each table */
+    } rows[] = {
+        {&br_document_text, {"\none, m  two, s\n", "\npe  one, m  two\n", "\none, m  two\n"}},
+        {&br_document_markdown,
+         {"\n| one, m | two, s |", "\n| pe | one, m | two |", "\n| one, m | two |"}},
+        {&br_document_latex, {"\none, m & two, s ", "\npe & one, m & two ", "\none, m & two "}},
+        {&br_document_html, {">one, m</th>", ">pe</th>", ">one, m</th>"}},
+        {&br_document_csv, {"pc,one [m],two [s]\n", "one [m],two\n8,9\n", "one [m],two\n8,9\n"}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_document d = {0};
+        size_t block = 0, size;
+        build_first(&d);
+        for (size_t t = 0; t < 3; t++) {
+            const struct br_document_table *table = br_document_next_table(&d, &block);
+            char *text = NULL;
+            FILE *out = open_memstream(&text, &size);
+            MUST(br_document_print(out, rows[i].format, &d, rows[i].format->by_table ? table : NULL,
+                                   &err));
+            assert_int_equal(fclose(out), 0);
+            if (!strstr(text, rows[i].text[t]) ||
+                (rows[i].format->by_table && strstr(text, rows[i].text[t]) != text))
+                fail_msg("%s, %zu: found '%s', expected '%s'", rows[i].format->name, t, text,
+                         rows[i].text[t]);
+            free(text);
+        }
+        br_document_clear(&d);
+    }
+}
+
 /* ---- a terminal ---- */
 
 static void build_wide(struct br_document *d)

@@ -745,18 +745,19 @@ static enum br_status turn(const struct layout *l)
     return BR_OK;
 }
 
-/* Names all lines that are in no row. */
+/* Names all lines that are in no row, but comments at the top. */
 static void leave_lines(const struct layout *l)
 {
     for (size_t i = 0; i < l->lines; i++) {
         const struct row *r = &l->row[i];
-        if (l->line[i].kind == BR_LINE_EMPTY || r->is_used)
+        const bool is_comment = l->line[i].kind == BR_LINE_COMMENT;
+        if (l->line[i].kind == BR_LINE_EMPTY || r->is_used || (is_comment && i < l->first))
             continue;
         for (char *c = l->line[i].text; (c = strchr(c, BR_BOX_BAR));)
             *c = '|';
         l->fields->left[l->fields->lefts++] =
             (struct br_left_line){l->line[i].number, l->line[i].text,
-                                  l->line[i].kind == BR_LINE_COMMENT      ? "comment"
+                                  is_comment                              ? "comment"
                                   : i < l->first                          ? "title"
                                   : i < l->last                           ? "between rows"
                                   : r->count == l->width && is_summary(r) ? "summary"

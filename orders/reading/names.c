@@ -344,6 +344,14 @@ const struct br_cost_row br_costs[BR_COSTS] = {
     [BR_COST_MEMORY] = {" memory mem ram mb gb mib gib ", "peak memory", "MB"},
 };
 
+static const char logarithms[] = " log log2 log10 ln lg ";
+
+bool br_is_logarithm(const char *name)
+{
+    char word[LONGEST];
+    return next_word(&name, word) && lists(logarithms, word);
+}
+
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
 {
     static const struct {
@@ -367,7 +375,7 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
     };
     const size_t all = sizeof units / sizeof *units;
     char word[LONGEST], last[LONGEST] = "";
-    bool part = false; /* "time per step" */
+    bool part = br_is_logarithm(name); /* "time per step", "log10 cpu" */
     enum br_cost found = BR_COSTS;
     for (const char *at = name; next_word(&at, word); strcpy(last, word)) {
         part |= lists(" per ", word);
@@ -446,9 +454,7 @@ enum br_kind br_kind_of(const char *name)
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
     }
-    at = name;
-    next_word(&at, word);
-    if ((!found || found == BR_KIND_ERROR) && lists(" log log2 log10 ln lg ", word))
+    if ((!found || found == BR_KIND_ERROR) && br_is_logarithm(name))
         return BR_KIND_LOGARITHM;
     return found                                            ? found
            : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION

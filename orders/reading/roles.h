@@ -33,6 +33,8 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
+bool br_is_logarithm(const char *name); /* "log10 cpu" */
+
 /* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or MB. */
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 
