@@ -14,16 +14,6 @@ enum {
     LARGEST = 1 << 26     /* bytes */
 };
 
-void br_cache_begin(const struct br_cache *k, const char *work, struct br_statement *text)
-{
-    br_statement_begin(text);
-    br_state(text, "beamrate-cache", "%s", "4");
-    (void)k;
-    br_state(text, "work", "%s", work);
-}
-
-/* ---- entries ---- */
-
 /* Of a cache: the path of an entry, or of its unfinished file. */
 static void name(const struct br_cache *k, const char *text, bool finished, char path[1300])
 {

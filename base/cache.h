@@ -21,9 +21,6 @@ struct br_cache {
     bool take;         /* entries that are there; else they are written anew */
 };
 
-/* Begins the text of an entry: what work it is of ("run"). */
-void br_cache_begin(const struct br_cache *cache, const char *work, struct br_statement *text);
-
 /* ---- entries: text.h has their numbers ---- */
 
 /* Reads the entry of a text into *self (out; means nothing where it fails). False: it is not there,

@@ -15,6 +15,11 @@ bool br_observer_stops(const struct br_observer *o)
     return o && o->stop && o->stop(o->self);
 }
 
+enum br_status br_observer_check(const struct br_observer *o, struct br_error *err)
+{
+    return br_observer_stops(o) ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
+}
+
 static bool (*must_stop)(void);
 
 void br_stop_when(bool (*stop)(void))
@@ -131,9 +136,7 @@ static void take_turn(struct loop *l, size_t i)
     const struct br_each *e = l->each;
     const struct br_observer *o = e->observer;
     struct br_error failure = {0};
-    if (br_observer_stops(o))
-        br_fail(&failure, BR_INTERRUPTED, "interrupted");
-    else
+    if (!br_observer_check(o, &failure))
         failure.status = e->turn(e->self, i, &failure);
     pthread_mutex_lock(&l->lock);
     if (failure.status && i < l->failed) {

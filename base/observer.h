@@ -5,6 +5,8 @@
 
 #include <stdbool.h>
 
+#include "base/status.h"
+
 /* How a long run reports its progress and is stopped. May be called from any thread. */
 struct br_observer {
     void (*progress)(void *self, double fraction); /* of the whole work, 0 to 1 */
@@ -17,6 +19,9 @@ struct br_observer {
 
 /* Whether the observer asks to stop; false for NULL. */
 bool br_observer_stops(const struct br_observer *observer);
+
+/* Then fails with BR_INTERRUPTED. */
+enum br_status br_observer_check(const struct br_observer *observer, struct br_error *err);
 
 /* Sets the function that says whether work without an observer must end; NULL, as at first: never.
  */

@@ -103,12 +103,11 @@ void br_sha256_of(const void *bytes, size_t count, char text[BR_SHA256_TEXT])
     br_sha256_end(&sum, text);
 }
 
-bool br_sha256_file(int file, long long *size, char text[BR_SHA256_TEXT])
+bool br_sha256_file(int file, char text[BR_SHA256_TEXT])
 {
     struct br_sha256 sum;
     char piece[1 << 15];
     ssize_t got;
-    *size = 0;
     br_sha256_start(&sum);
     while ((got = read(file, piece, sizeof piece)) != 0) {
         if (got < 0 && errno == EINTR)
@@ -116,7 +115,6 @@ bool br_sha256_file(int file, long long *size, char text[BR_SHA256_TEXT])
         if (got < 0)
             return false;
         br_sha256_add(&sum, piece, (size_t)got);
-        *size += got;
     }
     br_sha256_end(&sum, text);
     return true;

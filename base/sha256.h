@@ -24,8 +24,8 @@ void br_sha256_end(struct br_sha256 *s, char text[BR_SHA256_TEXT]);
 /* All at once. */
 void br_sha256_of(const void *bytes, size_t count, char text[BR_SHA256_TEXT]);
 
-/* The size and the sum of an open file, from its position to its end. false: reading failed, see
+/* The sum of an open file, from its position to its end. false: reading failed, see
  * errno. */
-bool br_sha256_file(int file, long long *size, char text[BR_SHA256_TEXT]);
+bool br_sha256_file(int file, char text[BR_SHA256_TEXT]);
 
 #endif

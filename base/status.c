@@ -120,6 +120,12 @@ void *br_store_take(struct br_store *store, size_t count, size_t size)
     return (char *)block + LINE;
 }
 
+char *br_store_copy(struct br_store *store, const char *text)
+{
+    char *copy = br_store_take(store, strlen(text) + 1, 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
 void *br_store_grow(struct br_store *store, void *array, size_t count, size_t *room, size_t size)
 {
     if (count < *room)

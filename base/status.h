@@ -66,6 +66,9 @@ struct br_store {
  * or was before: a caller that takes several pieces checks `failed` after the last one. */
 void *br_store_take(struct br_store *store, size_t count, size_t size);
 
+/* A copy of a text. */
+char *br_store_copy(struct br_store *store, const char *text);
+
 /* The array with room for one more than `count`: itself, or a larger copy. NULL as above. */
 void *br_store_grow(struct br_store *store, void *array, size_t count, size_t *room, size_t size);
 void br_store_clear(struct br_store *store);

@@ -147,6 +147,19 @@ const char *br_read_number(const char *text, double *value)
     return end != text && isfinite(*value) && !lost ? end : NULL;
 }
 
+int br_by_number(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+bool br_takes(const char **text, const char *word)
+{
+    const bool found = strncmp(*text, word, strlen(word)) == 0;
+    *text += found ? strlen(word) : 0;
+    return found;
+}
+
 const char *br_skip_word(const char *text, const char *word)
 {
     static const char blanks[] = " \t\n";

@@ -79,6 +79,12 @@ bool br_lists(const char *list, const char *name);
 /* Reads a finite number at the start of text; returns what follows, or NULL. */
 const char *br_read_number(const char *text, double *value);
 
+/* For qsort: numbers in ascending order. */
+int br_by_number(const void *a, const void *b);
+
+/* Whether a text begins with a word, which is then skipped. */
+bool br_takes(const char **text, const char *word);
+
 /* Skips blanks, a word and the blanks behind it; returns what follows, or NULL: the word is not
  * there, or text is NULL. */
 const char *br_skip_word(const char *text, const char *word);

@@ -21,7 +21,9 @@ const char *br_yaml_place(const struct br_yaml *r, size_t line, char text[BR_PLA
     return text;
 }
 
-void br_yaml_sets(const char *set, char text[BR_PLACE])
+/* Writes what ends the refusal of a value of the file, which may be due to what is set: " (with
+ * --set KEY=VALUE, ...)"; set NULL: nothing. text: out, cut where it is full. */
+static void write_sets(const char *set, char text[BR_PLACE])
 {
     *text = '\0';
     for (const char *c = set, *end; c; c = *end ? end + 1 : NULL) {
@@ -46,7 +48,7 @@ enum br_status br_yaml_refuse(const struct br_yaml *r, size_t line, const char *
     /* A long value must not hide what was expected, which is at the end of the text. */
     enum { HEAD = 200, TAIL = 400 };
     br_yaml_place(r, line, place);
-    br_yaml_sets(line > BR_LAST_LINE ? NULL : r->set, sets);
+    write_sets(line > BR_LAST_LINE ? NULL : r->set, sets);
     if (length > HEAD + TAIL)
         br_fail(r->err, BR_BAD_INPUT, "%s%s%s: %.100s: %.*s ... %s%s", r->path, colon, place, key,
                 HEAD, text, text + length - TAIL, sets);

@@ -51,8 +51,4 @@ enum { BR_LAST_LINE = 1 << 21, BR_PLACE = 200 };
  * is full. */
 const char *br_yaml_place(const struct br_yaml *yaml, size_t line, char text[BR_PLACE]);
 
-/* Writes what ends the refusal of a value of the file, which may be due to what is set: " (with
- * --set KEY=VALUE, ...)"; set NULL: nothing. text: out, cut where it is full. */
-void br_yaml_sets(const char *set, char text[BR_PLACE]);
-
 #endif

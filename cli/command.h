@@ -64,11 +64,6 @@ static inline bool br_is_first(void)
     return !br_program.beam || br_program.beam->first();
 }
 
-static inline int br_processes(void)
-{
-    return br_program.beam ? br_program.beam->size() : 1;
-}
-
 /* NULL: there is none. */
 const struct br_command *br_find_command(const char *name);
 

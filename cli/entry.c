@@ -77,7 +77,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
                        br_program.name);
     }
     if (strcmp(word, "--version") == 0) {
-        printf("%s %s (%s)\n%s\n", br_program.name, br_version(), br_commit(), br_libraries());
+        br_print_version(br_program.name);
         return BR_OK;
     }
     const struct br_command *command = help ? &br_command_help : br_find_command(word);

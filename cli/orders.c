@@ -79,7 +79,9 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
 {
     static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_K,      BR_OPT_TIME_LIMIT,
                                                 BR_OPT_RESUME, BR_OPT_REPEAT, BR_OPTIONS};
+    static const enum br_option_id of_tables[] = {BR_OPT_COLUMN, BR_OPT_WHERE, BR_OPTIONS};
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
+    const char *of_table = q->command ? br_first_given(o, of_tables) : NULL;
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
     q->assumed_dimension = !br_option_given(o, BR_OPT_DIMENSION);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
@@ -88,10 +90,8 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     q->finest = br_option_number(o, BR_OPT_FINEST, 0);
     if (unused)
         return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
-    if (q->command && br_option_given(o, BR_OPT_COLUMN))
-        return br_fail(err, BR_BAD_INPUT, "--column is given beside --run, expected a table");
-    if (q->command && br_option_given(o, BR_OPT_WHERE))
-        return br_fail(err, BR_BAD_INPUT, "--where is given beside --run, expected a table");
+    if (of_table)
+        return br_fail(err, BR_BAD_INPUT, "--%s is given beside --run, expected a table", of_table);
     if (br_option_given(o, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT, "--trust is given without a study file");
     if (br_option_given(o, BR_OPT_READ) != !!q->command)

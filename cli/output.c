@@ -30,7 +30,7 @@ static bool sync_folder(int folder)
 
 /* ---- folders ---- */
 
-/* Removes the folders of the path that br_make_folders made, if they are empty. */
+/* Removes the folders of the path that make_folders made, if they are empty. */
 static void remove_folders(const char *path, size_t made)
 {
     char part[4096];
@@ -44,7 +44,9 @@ static void remove_folders(const char *path, size_t made)
     errno = reason;
 }
 
-bool br_make_folders(const char *path, mode_t last, size_t *made)
+/* Makes every missing folder of the path. *made (out): the length of the path of the first one that
+ * was missing; 0: none was. False: errno says why, and none is left. */
+static bool make_folders(const char *path, size_t *made)
 {
     char part[4096], *slash = part;
     snprintf(part, sizeof part, "%s", path);
@@ -53,7 +55,7 @@ bool br_make_folders(const char *path, mode_t last, size_t *made)
         slash = strchrnul(slash + 1, '/');
         more = *slash;
         *slash = '\0';
-        const bool failed = mkdir(part, more ? 0777 : last) != 0;
+        const bool failed = mkdir(part, 0777) != 0;
         if (failed && errno != EEXIST) {
             remove_folders(part, *made);
             return false;
@@ -262,7 +264,7 @@ static void remove_hidden(const struct br_output *o)
 static enum br_status lock_folder(struct br_output *o, struct br_error *err)
 {
     struct stat info;
-    if (!br_make_folders(o->folder, 0777, &o->made) ||
+    if (!make_folders(o->folder, &o->made) ||
         (o->parent = open(o->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0)
         return br_fail(err, br_status_of_errno(errno), "cannot make the folder: %s",
                        strerror(errno));

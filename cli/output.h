@@ -37,7 +37,7 @@ struct br_output {
     char staging[1400];     /* where they are written first; "": not open */
     int parent, descriptor; /* the open folder and hidden folder; -1: not open */
     int lock;               /* the open file that is locked; -1: not open */
-    size_t made;            /* as of br_make_folders */
+    size_t made;            /* of the path of the first folder that was missing; 0: none was */
     size_t replaced;        /* files of the old set that the new one has, too */
     size_t removed;         /* files of the old set that the new one lacks */
 };
@@ -69,10 +69,6 @@ enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 /* Removes what has not been put in place, and the folder if br_output_open made it; does nothing
  * after a commit. */
 void br_output_discard(struct br_output *output);
-
-/* Makes every missing folder of the path. *made (out): the length of the path of the first one that
- * was missing; 0: none was. False: errno says why, and none is left. */
-bool br_make_folders(const char *path, mode_t last, size_t *made);
 
 /* ---- one file ---- */
 

@@ -18,14 +18,9 @@ const char *br_version(void)
     return BR_VERSION;
 }
 
-const char *br_commit(void)
+void br_print_version(const char *program)
 {
-    return BR_COMMIT;
-}
-
-const char *br_libraries(void)
-{
-    return BR_LIBRARIES;
+    printf("%s %s (%s)\n%s\n", program, BR_VERSION, BR_COMMIT, BR_LIBRARIES);
 }
 
 const char *br_command_line(void)

@@ -6,8 +6,9 @@
 #include "tables/document.h"
 
 const char *br_version(void);
-const char *br_commit(void);
-const char *br_libraries(void); /* it was built with, and their versions: "GSL 2.7.1, ..." */
+
+/* With the commit, and the libraries that it was built with: "GSL 2.7.1, ...". */
+void br_print_version(const char *program);
 
 /* Fails with BR_NO_MEMORY. */
 enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err);

@@ -25,7 +25,7 @@ struct br_session br_session_begin(const struct br_options *options)
 
 enum br_status br_session_alone(struct br_error *err)
 {
-    const int ranks = br_processes();
+    const int ranks = br_program.beam ? br_program.beam->size() : 1;
     return ranks == 1
                ? BR_OK
                : br_fail(err, BR_BAD_INPUT,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "orders/estimate.h"
 
+#include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -119,6 +120,20 @@ const char *br_range_text(double order, double highest, char *buffer, size_t siz
     return buffer;
 }
 
+struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
+{
+    const double half = freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, (double)freedom) * deviation : NAN;
+    return (struct br_estimate){value, value - half, value + half};
+}
+
+double br_akaike(double sum, size_t count, size_t unknowns)
+{
+    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
+    if (!(n > u + 1))
+        return INFINITY;
+    return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
+}
+
 /* Abramowitz and Stegun 1964, 26.7.3 and 26.7.4. */
 double br_student_below(double t, double freedom)
 {
@@ -130,4 +145,9 @@ double br_student_below(double t, double freedom)
         term *= square * (k - 1) / k;
     }
     return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
+}
+
+double br_scale_of_known(double freedom)
+{
+    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers with their 95 % intervals, as texts, and linear least squares. */
+/* Numbers with their 95 % intervals, and as texts. */
 #ifndef BR_ORDERS_ESTIMATE_H
 #define BR_ORDERS_ESTIMATE_H
 
@@ -32,6 +32,10 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
 
 /* Student's distribution of whole freedom: the probability of less than t. */
 double br_student_below(double t, double freedom);
+
+/* What a known deviation adds to the scale of that distribution, so that it widens the 95 %
+ * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
+double br_scale_of_known(double freedom);
 
 /* Akaike's criterion, with Hurvich and Tsai's correction for few points, of `count` residuals; sum:
  * of their squares. Infinite where there are too few. */

@@ -7,12 +7,6 @@
 
 /* ---- finer meshes ---- */
 
-static bool has_floor(const struct br_case *c)
-{
-    return c->law == br_law_text(BR_LAW_FLOOR) || c->law == br_law_text(BR_LAW_FLOOR_SQUARES) ||
-           c->law == br_law_text(BR_LAW_OFFSET);
-}
-
 struct br_orders_forecast br_orders_forecast_of(const struct br_orders *o,
                                                 const struct br_quantity_orders *of)
 {
@@ -21,12 +15,13 @@ struct br_orders_forecast br_orders_forecast_of(const struct br_orders *o,
     if (!line)
         return f;
     const struct br_case *c = &line->observed;
-    const bool is_value = o->numbers->quantity[of->quantity].is_value;
+    const bool is_value = br_quantity_of(o, of)->is_value;
     const size_t last = c->points - 1 + is_value;
     f = (struct br_orders_forecast){line, line->limits.gci.fine.index, line->limits.gci.order,
                                     o->numbers->row[line->row[last]].z[line->axis], NAN};
     if (!is_value) {
-        f.number = c->point[last].flag || has_floor(c) ? (double)NAN : c->point[last].error;
+        f.number =
+            c->point[last].flag || br_law_is_floor(c->law) ? (double)NAN : c->point[last].error;
         f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
     }
     const enum br_sequence sequence = line->limits.limit.sequence;
@@ -55,11 +50,6 @@ double br_orders_needed(const struct br_orders *o, const struct br_orders_foreca
     const double growth = pow(part, column->is_volume ? -o->numbers->dimension : -1);
     return growth <= most ? br_numbers_given(column, f->z * part, o->numbers->dimension)
                           : (double)NAN;
-}
-
-double br_orders_in_dimension(const struct br_orders *o, double order, double dimension)
-{
-    return order * dimension / o->numbers->dimension;
 }
 
 bool br_orders_stays(const struct br_orders_line *line)
@@ -92,7 +82,7 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
 {
     const struct br_orders_line *line = o->count ? br_orders_finest(&o->of[0], axis) : NULL;
     *growth = (struct br_estimate){NAN, NAN, NAN};
-    struct br_order_point *point = line ? br_allocate(o->numbers->rows, sizeof *point) : NULL;
+    struct br_point *point = line ? br_allocate(o->numbers->rows, sizeof *point) : NULL;
     if (!line || !point)
         return line ? br_no_memory(err, "the costs") : BR_OK;
     const size_t rows = line->observed.points + o->numbers->quantity[o->of[0].quantity].is_value;
@@ -100,7 +90,7 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     for (size_t i = 0; i < rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (row->seconds >= least_seconds)
-            point[count++] = (struct br_order_point){.z = row->z[axis], .error = 1 / row->seconds};
+            point[count++] = (struct br_point){.z = row->z[axis], .error = 1 / row->seconds};
     }
     struct br_line_order found;
     const enum br_status status = br_line_order_find(point, count, &found, err);

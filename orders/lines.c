@@ -6,20 +6,10 @@
 
 #include "orders/orders.h"
 
-static enum br_axis other(enum br_axis axis)
-{
-    return axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
-}
-
 double br_orders_rate(const struct br_orders_line *line, size_t i)
 {
     const struct br_point *p = line->observed.point;
     return i ? br_point_rate(&p[i - 1], &p[i]) : NAN;
-}
-
-static double z_of(const struct br_numbers *numbers, size_t row, enum br_axis axis)
-{
-    return numbers->row[row].z[axis];
 }
 
 static const char *failure_of(const struct br_numbers_row *row, double number)
@@ -48,9 +38,12 @@ static double deviation_of(const struct br_numbers_row *row, size_t quantity)
 double br_orders_rounding(const struct br_orders *o, size_t quantity,
                           const struct br_numbers_row *row)
 {
-    return row->repeat > 1 || isnan(row->number[quantity])
-               ? 0
-               : br_numbers_rounding(&o->numbers->quantity[quantity], row->number[quantity]);
+    enum { ALL = 12 }; /* so many digits are as good as all */
+    const struct br_quantity *q = &o->numbers->quantity[quantity];
+    const double number = row->number[quantity];
+    if (row->repeat > 1 || isnan(number) || q->digits > ALL || number == 0)
+        return 0;
+    return 0.5 * pow(10, q->fixed ? -q->decimals : floor(log10(fabs(number))) + 1 - q->digits);
 }
 
 bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row)
@@ -132,7 +125,7 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
 enum br_status br_orders_add_differences(const struct br_orders *o, struct br_quantity_orders *of,
                                          enum br_axis axis, struct br_error *err)
 {
-    const struct br_differences *d = &o->numbers->quantity[of->quantity].differences[axis];
+    const struct br_differences *d = &br_quantity_of(o, of)->differences[axis];
     struct br_orders_line *line = &of->differences[axis];
     line->axis = axis;
     if (!d->point)
@@ -164,15 +157,15 @@ enum br_status br_orders_joint_case(const struct br_orders *o, const struct br_q
             continue;
         for (size_t j = 0; j < i; j++) /* that of a row before it, if there is one */
             if (br_orders_counts(of, &n->row[j]) && of->flag[j] == BR_FLAG_NONE &&
-                z_of(n, j, axis) == z_of(n, i, axis))
-                finest = fmin(finest, z_of(n, j, other(axis)));
-        while (at < c->points && c->point[at].z != z_of(n, i, axis))
+                n->row[j].z[axis] == n->row[i].z[axis])
+                finest = fmin(finest, n->row[j].z[!axis]);
+        while (at < c->points && c->point[at].z != n->row[i].z[axis])
             at++;
-        if (z_of(n, i, other(axis)) > finest)
+        if (n->row[i].z[!axis] > finest)
             continue;
         struct br_point *p = &c->point[at];
         c->points += at == c->points;
-        *p = (struct br_point){.z = z_of(n, i, axis),
+        *p = (struct br_point){.z = n->row[i].z[axis],
                                .error = n->row[i].number[of->quantity],
                                .constant = NAN, /* the error has a part of the other axis */
                                .rounding = br_orders_rounding(o, of->quantity, &n->row[i])};
@@ -237,8 +230,8 @@ static enum br_status add_line(const struct br_orders *o, struct br_quantity_ord
     line->axis = axis;
     for (size_t i = 0; i < rows; i++)
         line->row[i] = sorted[i].row;
-    if (numbers->column[other(axis)] && !o->tied)
-        br_numbers_name(numbers, &numbers->row[line->row[0]], other(axis), line->at);
+    if (numbers->column[!axis] && !o->tied)
+        br_numbers_name(numbers, &numbers->row[line->row[0]], (enum br_axis) !axis, line->at);
     const enum br_status status = make_points(o, of->quantity, line, rows, err);
     if (status)
         return status;
@@ -252,7 +245,7 @@ enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity
                                    enum br_axis axis, struct br_error *err)
 {
     const struct br_numbers *numbers = o->numbers;
-    const bool alone = o->tied || !numbers->column[other(axis)];
+    const bool alone = o->tied || !numbers->column[!axis];
     struct line_row *sorted = br_allocate(numbers->rows, sizeof *sorted);
     of->point[axis] = br_allocate(numbers->rows, sizeof *of->point[axis]);
     enum br_status status = BR_OK;
@@ -262,13 +255,12 @@ enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity
     for (size_t i = 0; i < numbers->rows && !status; i++)
         if (!(numbers->row[i].absent && numbers->row[i].absent[of->quantity]) &&
             numbers->row[i].out[of->quantity] != BR_FLAG_BY_HAND)
-            sorted[rows++] = (struct line_row){alone ? 0 : z_of(numbers, i, other(axis)),
-                                               z_of(numbers, i, axis), i};
+            sorted[rows++] =
+                (struct line_row){alone ? 0 : numbers->row[i].z[!axis], numbers->row[i].z[axis], i};
     if (!status)
         qsort(sorted, rows, sizeof *sorted, by_line);
     for (size_t first = 0, end; first < rows && !status; first = end) {
-        if (br_observer_stops(numbers->observer))
-            status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        status = br_observer_check(numbers->observer, err);
         for (end = first + 1; end < rows && sorted[end].other == sorted[first].other;)
             end++;
         if (!status && end - first >= BR_ORDERS_LEAST)

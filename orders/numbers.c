@@ -99,14 +99,6 @@ static void find_digits(struct br_numbers *numbers, size_t quantity)
     q->fixed = count * q->decimals - sum_of_decimals < count * q->digits - sum_of_digits;
 }
 
-double br_numbers_rounding(const struct br_quantity *q, double number)
-{
-    enum { ALL = 12 }; /* so many are as good as all */
-    if (q->digits > ALL || number == 0)
-        return 0;
-    return 0.5 * pow(10, q->fixed ? -q->decimals : floor(log10(fabs(number))) + 1 - q->digits);
-}
-
 void br_numbers_clear(struct br_numbers *numbers)
 {
     for (size_t i = 0; i < numbers->quantities + numbers->costs; i++) {

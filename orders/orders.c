@@ -4,14 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "orders/expectation/growth.h"
-
-static enum br_status stopped(const struct br_numbers *numbers, struct br_error *err)
-{
-    return br_observer_stops(numbers->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                                : BR_OK;
-}
-
 /* ---- both axes ---- */
 
 static struct br_point *point_on(const struct br_quantity_orders *of, enum br_axis axis, size_t row)
@@ -153,7 +145,7 @@ static bool is_scatter(const struct br_orders_line *line)
  */
 static bool is_fine(const struct br_orders *o, const struct br_quantity_orders *of, size_t line)
 {
-    if (!(o->numbers->quantity[of->quantity].formal[of->line[line].axis] > 0))
+    if (!(br_quantity_of(o, of)->formal[of->line[line].axis] > 0))
         return false;
     return line + 2 >= of->lines || of->line[line + 2].axis != of->line[line].axis;
 }
@@ -183,7 +175,7 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->low99 = by->low99;
     c->high99 = by->high99;
-    c->law = NULL;
+    c->law = BR_LAW_POWER;
     snprintf(c->note, sizeof c->note, "%s", by->note);
 }
 
@@ -216,7 +208,7 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
     enum br_status status = BR_OK;
     for (size_t l = 0; l < of->lines && !status; l++) {
         struct br_case *c = &of->line[l].observed;
-        if (stopped(o->numbers, err))
+        if (br_observer_check(o->numbers->observer, err))
             return err->status;
         const struct br_resolution_column *size = o->numbers->column[of->line[l].axis];
         if (!o->numbers->powers || (leave_out && is_fine(o, of, l)))
@@ -232,7 +224,7 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
 static enum br_status observe_all(const struct br_orders *o, struct br_quantity_orders *of,
                                   struct br_error *err)
 {
-    const bool joint = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    const bool joint = br_orders_is_grid(o) && !br_quantity_of(o, of)->is_value;
     enum br_status status = joint ? fit_both(o, of, err) : BR_OK;
     const bool described = joint && br_joint_describes(&of->joint);
     if (!status)
@@ -287,7 +279,7 @@ static struct br_orders_answer answer_of_grid(const struct br_orders *o,
         "sizes of both would show the order";
     const struct br_orders_line *finest = br_orders_finest(of, axis);
     const struct br_estimate *joint = &of->joint.order[axis];
-    const bool both = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    const bool both = br_orders_is_grid(o) && !br_quantity_of(o, of)->is_value;
     if (br_joint_describes(&of->joint)) {
         const bool sure = br_order_determined(joint), small = of->joint.share[axis] < 0.5;
         return (struct br_orders_answer){*joint,
@@ -353,10 +345,10 @@ static bool is_hidden(const struct br_orders *o, const struct br_quantity_orders
                       const struct br_orders_line *line)
 {
     static const double share = 0.1;
-    const enum br_axis other = line->axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
+    const int other = !line->axis;
     const struct br_point *finest = finest_of(&line->observed),
                           *alone = finest_of(&of->differences[other].observed);
-    const double p = o->numbers->quantity[of->quantity].formal[other];
+    const double p = br_quantity_of(o, of)->formal[other];
     return finest && alone &&
            alone->error * pow(o->numbers->row[line->row[0]].z[other], p) >
                share * finest->error * (pow(alone->z, p) - pow(alone->z_against, p));
@@ -378,7 +370,7 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     static const char *const hidden[BR_AXES] = {
         "the error in k hides the order in h: a finer k, or a coarser h, would show it",
         "the error in h hides the order in k: a finer h, or a coarser k, would show it"};
-    const struct br_quantity *q = &o->numbers->quantity[of->quantity];
+    const struct br_quantity *q = br_quantity_of(o, of);
     const struct br_orders_line *line = &of->differences[axis];
     struct br_orders_answer grid = answer_of_grid(o, of, axis);
     if (!grid.joint && grid.line && is_hidden(o, of, grid.line))
@@ -434,7 +426,7 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     of->line = br_allocate(2 * numbers->rows, sizeof *of->line);
     if (!of->line)
         return br_no_memory(err, "the orders");
-    enum br_status status = stopped(numbers, err);
+    enum br_status status = br_observer_check(numbers->observer, err);
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = br_orders_add_lines(o, of, (enum br_axis)axis, err);

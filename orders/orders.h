@@ -38,9 +38,6 @@ struct br_quantity {
     struct br_differences differences[BR_AXES];
 };
 
-/* Half a unit of the last digit to which a number of the quantity was printed; 0: it has all. */
-double br_numbers_rounding(const struct br_quantity *quantity, double number);
-
 /* One run of the program that made the numbers. */
 struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column, or a run that failed before
@@ -183,6 +180,12 @@ struct br_orders {
     bool tied; /* both axes are refined from each row to the next, along one line */
 };
 
+static inline const struct br_quantity *br_quantity_of(const struct br_orders *orders,
+                                                       const struct br_quantity_orders *of)
+{
+    return &orders->numbers->quantity[of->quantity];
+}
+
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
  * flag. formal: the order of theory for values, for the intervals of their limits; 0: nobody stated
  * it, and it is 2. The numbers are borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it
@@ -251,9 +254,6 @@ double br_orders_next(const struct br_orders *orders, const struct br_orders_for
  * finest, or as many cells. */
 double br_orders_needed(const struct br_orders *orders, const struct br_orders_forecast *f,
                         double wanted);
-
-/* The order in h, if the mesh had another dimension than the assumed one. */
-double br_orders_in_dimension(const struct br_orders *orders, double order, double dimension);
 
 /* Whether a column of errors hardly changes along its line, as a value does. */
 bool br_orders_stays(const struct br_orders_line *line);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/quote.h"
+#include "base/sha256.h"
 #include "base/words.h"
 
 struct br_orders_request br_orders_request_default(void)
@@ -49,8 +50,6 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
                               struct br_error *err)
 {
     *numbers = (struct br_numbers){0};
-    if (!r->command && !r->table)
-        return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
     const enum br_status status = (r->command ? br_program_run : br_table_read)(r, numbers, err);
     numbers->observer = r->observer;
     return status || br_numbers_check(numbers, br_orders_path(r), err) ||
@@ -217,14 +216,6 @@ enum br_status br_orders_request_axis(struct br_orders_request *r, const char *c
     return status;
 }
 
-/* Whether a text begins with a word, which is then skipped. */
-static bool takes(const char **text, const char *word)
-{
-    const bool found = strncmp(*text, word, strlen(word)) == 0;
-    *text += found ? strlen(word) : 0;
-    return found;
-}
-
 /* Takes "PATH:". The path stays within the folder of the run. */
 static enum br_status take_file(const char **what, const char **file, struct br_error *err)
 {
@@ -249,24 +240,20 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
     for (size_t i = 0; i < r->readings; i++)
         if (strcmp(r->reading[i].name, name) == 0)
             return br_fail(err, BR_BAD_INPUT, "%s is read twice", name);
-    struct br_reading *more = br_allocate(r->readings + 1, sizeof *more);
-    if (!more)
+    if (!br_grow(&r->reading, r->readings, &r->room, sizeof reading))
         return br_no_memory(err, "what is read");
-    if (r->readings)
-        memcpy(more, r->reading, r->readings * sizeof *more);
-    free((struct br_reading *)r->reading);
-    r->reading = more;
-    reading.complaints = takes(&what, "stderr:");
-    enum br_status status =
-        !reading.complaints && takes(&what, "file:") ? take_file(&what, &reading.file, err) : BR_OK;
-    reading.last = takes(&what, "last:");
+    reading.complaints = br_takes(&what, "stderr:");
+    enum br_status status = !reading.complaints && br_takes(&what, "file:")
+                                ? take_file(&what, &reading.file, err)
+                                : BR_OK;
+    reading.last = br_takes(&what, "last:");
     if (!reading.last)
-        reading.kind = takes(&what, "json:")  ? BR_READING_JSON
-                       : takes(&what, "csv:") ? BR_READING_CSV
-                                              : BR_READING_REGEX;
+        reading.kind = br_takes(&what, "json:")  ? BR_READING_JSON
+                       : br_takes(&what, "csv:") ? BR_READING_CSV
+                                                 : BR_READING_REGEX;
     reading.name = strdup(name);
     reading.what = strdup(what);
-    more[r->readings++] = reading;
+    ((struct br_reading *)r->reading)[r->readings++] = reading;
     if (!status && !(reading.name && reading.what))
         status = br_no_memory(err, "what is read");
     return status;

@@ -8,8 +8,6 @@
 #include <jansson.h>
 
 #include "base/observer.h"
-#include "base/sha256.h"
-#include "base/statement.h"
 #include "orders/orders.h"
 #include "orders/reading/reading.h"
 
@@ -64,7 +62,7 @@ struct br_orders_request {
     char *folder; /* of the study file; NULL: the current one */
     struct br_program_axis axis[BR_AXES];
     const struct br_reading *reading; /* readings */
-    size_t readings;
+    size_t readings, room;
     double seconds;   /* limit of one run */
     double repeat;    /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     const char *cost; /* of a trade: columns of costs are read, this one too, and runs are repeated
@@ -82,8 +80,7 @@ void br_orders_request_clear(struct br_orders_request *request);
 /* ---- sources ---- */
 
 /* Reads the numbers of the table, or of the program (out; clear them even after a failure), and
- * checks them. Fails as br_table_read, br_program_run and br_numbers_check do, or with BR_BAD_INPUT
- * where there is neither. */
+ * checks them. Fails as br_table_read, br_program_run and br_numbers_check do. */
 enum br_status br_orders_read(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
@@ -138,11 +135,6 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
-/* Makes a row for each run of the list or grid, from coarse to fine, with its resolution. numbers:
- * zeros. Fails as br_numbers_make_room. */
-enum br_status br_program_rows(const struct br_orders_request *request, struct br_numbers *numbers,
-                               struct br_error *err);
-
 /* A command at one resolution. */
 struct br_command_words {
     char **word;   /* owned; ends with NULL */
@@ -154,14 +146,6 @@ enum br_status br_command_split(const struct br_orders_request *request,
                                 const struct br_numbers_row *row, struct br_command_words *words,
                                 struct br_error *err);
 void br_command_clear(struct br_command_words *words); /* accepts zeros */
-
-/* States the words, and the bytes of the program and of the files that words name, also behind a
- * "=" (of large files their size and time). Fails with BR_IO. */
-enum br_status br_command_state(struct br_statement *statement,
-                                const struct br_command_words *words, struct br_error *err);
-
-/* Another number where one of these files was replaced or written. */
-uint64_t br_command_stamp(const struct br_command_words *words);
 
 /* Runs a command and reads the numbers of the row (out), or sets its failure. Fails as
  * br_program_run. */

@@ -25,6 +25,7 @@ struct key {
     enum br_status (*take)(const struct entry *e); /* its error gets the file and the key */
     size_t at;                                     /* offset of a text or a number in the request */
     const char *unit;                              /* of a number; NULL: none */
+    struct br_number_range range;                  /* of a number; zeros: above 0 */
     bool of_runs;                                  /* only for a command */
     bool pairs; /* a mapping of names to texts; each pair is taken */
 };
@@ -98,19 +99,10 @@ static enum br_status take_dimension(const struct entry *e)
     return take_number(e);
 }
 
-static enum br_status take_repeat(const struct entry *e)
+static enum br_status take_in_range(const struct entry *e)
 {
-    const enum br_status status = take_number(e);
-    return status || (e->request->repeat <= BR_MOST_SIZES && fmod(e->request->repeat, 1) == 0)
-               ? status
-               : br_fail(e->err, BR_BAD_INPUT, "found '%s', expected a whole number from 1 to %d",
-                         e->text, BR_MOST_SIZES);
-}
-
-static enum br_status take_finest(const struct entry *e)
-{
-    static const struct br_number_range range = {BR_ORDERS_LEAST, BR_MOST_SIZES, true};
-    return br_read_in_range(e->text, &range, &e->request->finest, e->err);
+    double *value = (double *)((char *)e->request + e->of->at);
+    return br_read_in_range(e->text, &e->of->range, value, e->err);
 }
 
 static enum br_status take_reading(const struct entry *e)
@@ -146,13 +138,15 @@ static const struct key keys[] = {
     {"read", take_reading, .of_runs = true, .pairs = true},
     {"column", take_text, .at = offsetof(struct br_orders_request, columns)},
     {"where", take_text, .at = offsetof(struct br_orders_request, where)},
-    {"finest", .take = take_finest},
+    {"finest", take_in_range, .at = offsetof(struct br_orders_request, finest),
+     .range = {BR_ORDERS_LEAST, BR_MOST_SIZES, true}},
     {"without", take_text, .at = offsetof(struct br_orders_request, without)},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
-    {"repeat", take_repeat, .at = offsetof(struct br_orders_request, repeat), .of_runs = true},
+    {"repeat", take_in_range, .at = offsetof(struct br_orders_request, repeat), .of_runs = true,
+     .range = {1, BR_MOST_SIZES, true}},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
      .of_runs = true},
     {"verify", take_expectation, .pairs = true},

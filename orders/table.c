@@ -157,11 +157,6 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
     return BR_OK;
 }
 
-static bool is_studied(const struct br_role_column *c)
-{
-    return c->role == BR_ROLE_ERROR || c->role == BR_ROLE_VALUE;
-}
-
 static enum br_status take_quantity(struct source *s, size_t group, size_t column,
                                     struct br_error *err)
 {
@@ -184,7 +179,7 @@ static enum br_status take_quantity(struct source *s, size_t group, size_t colum
 static bool is_cost(const struct source *s, const struct br_role_column *c)
 {
     double factor;
-    return s->request->cost && c->name && c->numbers && !c->words && !is_studied(c) &&
+    return s->request->cost && c->name && c->numbers && !c->words && !br_role_is_studied(c) &&
            (strcmp(c->name, s->request->cost) == 0 ||
             br_cost_of(c->name, c->unit, &factor) != BR_COSTS);
 }
@@ -194,24 +189,12 @@ static enum br_status take_quantities(struct source *s, bool costs, struct br_er
 {
     const struct br_roles *r = &s->roles;
     for (size_t i = 0; i < r->columns; i++) {
-        const bool is = costs ? is_cost(s, &r->column[i]) : is_studied(&r->column[i]);
+        const bool is = costs ? is_cost(s, &r->column[i]) : br_role_is_studied(&r->column[i]);
         for (size_t group = 0; group < r->groups && is; group++)
-            if (br_observer_stops(s->request->observer))
-                return br_fail(err, BR_INTERRUPTED, "interrupted");
-            else if (take_quantity(s, group, i, err))
+            if (br_observer_check(s->request->observer, err) || take_quantity(s, group, i, err))
                 return err->status;
     }
     return BR_OK;
-}
-
-static enum br_status take_costs(struct source *s, struct br_error *err)
-{
-    struct br_numbers *n = s->numbers;
-    const size_t studied = n->quantities;
-    const enum br_status status = take_quantities(s, true, err);
-    n->costs = n->quantities - studied;
-    n->quantities = studied;
-    return status;
 }
 
 /* ---- what is said ---- */
@@ -236,10 +219,7 @@ __attribute__((format(printf, 2, 3))) static void say(struct source *s, const ch
 /* Moves what is said into the numbers. */
 static const char *keep(struct source *s)
 {
-    const char *text = s->text ? s->text : "";
-    char *copy = br_store_take(&s->numbers->store, strlen(text) + 1, 1);
-    if (copy)
-        strcpy(copy, text);
+    const char *copy = br_store_copy(&s->numbers->store, s->text ? s->text : "");
     s->no_memory |= !copy;
     free(s->text);
     s->text = NULL;
@@ -406,7 +386,7 @@ static enum br_status make_room(struct source *s, struct br_error *err)
         return br_no_memory(err, "the table");
     const size_t cells = find_cells(s);
     for (size_t i = 0; i < r->columns; i++)
-        studied += is_studied(&r->column[i]) || is_cost(s, &r->column[i]);
+        studied += br_role_is_studied(&r->column[i]) || is_cost(s, &r->column[i]);
     if (s->no_memory || br_numbers_make_room(n, cells, studied * r->groups, err))
         return s->no_memory ? br_no_memory(err, "the table") : err->status;
     for (size_t i = 0; i < r->rows; i++)
@@ -447,32 +427,30 @@ static enum br_status refuse_values(const struct source *s, struct br_error *err
 
 static enum br_status take_all(struct source *s, struct br_error *err)
 {
-    const struct br_table_wishes wishes = {
-        .path = br_orders_path(s->request),
-        .columns = s->request->columns,
-        .where = s->request->where,
-        .errors = s->request->errors,
-        .values = s->request->values,
-        .cost = s->request->cost,
-        .dimension = s->request->assumed_dimension ? 0 : s->request->dimension,
-    };
-    if (br_roles_find(&s->fields, &wishes, &s->roles, err) || make_room(s, err))
+    if (br_roles_find(&s->fields, s->request, &s->roles, err) || make_room(s, err))
         return err->status;
     for (int axis = 0; axis < BR_AXES; axis++)
         if (take_sizes(s, (enum br_axis)axis, err))
             return err->status;
-    if (take_quantities(s, false, err) || take_costs(s, err) || state(s, err) ||
-        check_lists(s, err))
+    if (take_quantities(s, false, err))
         return err->status;
-    return s->numbers->quantities ? BR_OK : refuse_values(s, err);
+    const size_t studied = s->numbers->quantities;
+    const enum br_status status = take_quantities(s, true, err);
+    s->numbers->costs = s->numbers->quantities - studied;
+    s->numbers->quantities = studied;
+    if (status || state(s, err) || check_lists(s, err))
+        return err->status;
+    return studied ? BR_OK : refuse_values(s, err);
 }
 
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
                              struct br_error *err)
 {
-    struct br_orders_request own = *q; /* its lists get the case of the headings */
+    struct br_orders_request own = *q; /* as br_roles_find has it */
     struct source s = {.request = &own, .numbers = numbers};
     err->status = BR_OK;
+    own.path = (char *)br_orders_path(q);
+    own.dimension = q->assumed_dimension ? 0 : q->dimension;
     own.errors = q->errors ? strdup(q->errors) : NULL;
     own.values = q->values ? strdup(q->values) : NULL;
     enum br_status status =

@@ -50,40 +50,24 @@ static const struct br_numbers_row *row_of_size(const struct br_numbers *n, enum
     return NULL;
 }
 
-/* The sizes of both axes, as "n = 8" and "k = 0.1"; names: their places. Returns their number; 0:
- * no memory. */
-static size_t list_sizes(const struct br_numbers *n, char (**size)[64], const char ***names)
+/* Lists the sizes of both axes: "n = 8", "k = 0.1". */
+static enum br_status refuse_size(const struct br_numbers *n, const char *path,
+                                  const struct item *item, struct br_error *err)
 {
+    char expected[BR_EXPECTED - BR_SUGGESTION] = "expected one of: ", name[64];
     size_t count = 0;
-    *size = br_allocate(2 * n->rows + 1, sizeof **size);
-    *names = br_allocate(2 * n->rows + 1, sizeof **names);
-    for (enum br_axis axis = 0; axis < BR_AXES && *size && *names; axis++)
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
         for (size_t i = 0; i < n->rows && n->column[axis]; i++) {
             bool is_new = !isnan(n->row[i].given[axis]);
             for (size_t j = 0; j < i && is_new; j++)
                 is_new = n->row[j].z[axis] != n->row[i].z[axis];
             if (!is_new)
                 continue;
-            br_numbers_name(n, &n->row[i], axis, (*size)[count]);
-            (*names)[count] = (*size)[count];
-            count++;
+            br_numbers_name(n, &n->row[i], axis, name);
+            br_append(expected, sizeof expected, "%s%s", count++ ? ", " : "", name);
         }
-    return count;
-}
-
-static enum br_status refuse_size(const struct br_numbers *n, const char *path,
-                                  const struct item *item, struct br_error *err)
-{
-    char(*size)[64], expected[BR_EXPECTED];
-    const char **names;
-    const size_t count = list_sizes(n, &size, &names);
-    const enum br_status status =
-        count ? br_fail(err, BR_BAD_INPUT, "%s: --without: found %s, which is no size there, %s",
-                        path, item->text, br_expected("", names, count, expected))
-              : br_no_memory(err, "the sizes");
-    free(size);
-    free(names);
-    return status;
+    return br_fail(err, BR_BAD_INPUT, "%s: --without: found %s, which is no size there, %s", path,
+                   item->text, expected);
 }
 
 /* Leaves out the rows of a size: all that have its name, since sizes are printed to six digits. */
@@ -145,12 +129,6 @@ static bool has_part(const struct br_numbers *n, size_t row, size_t q, enum br_a
            r->out[q] != BR_FLAG_BY_HAND;
 }
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The sizes of a quantity along an axis, from fine to coarse. */
 static size_t sizes_of(const struct br_numbers *n, size_t q, enum br_axis axis, double *z)
 {
@@ -158,7 +136,7 @@ static size_t sizes_of(const struct br_numbers *n, size_t q, enum br_axis axis, 
     for (size_t i = 0; i < n->rows; i++)
         if (has_part(n, i, q, axis))
             z[count++] = n->row[i].z[axis];
-    qsort(z, count, sizeof *z, by_size);
+    qsort(z, count, sizeof *z, br_by_number);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || z[i] > z[different - 1])
             z[different++] = z[i];

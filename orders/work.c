@@ -376,7 +376,7 @@ enum line { COST_OVER_SIZE, ERROR_OVER_SIZE, ERROR_OVER_COST };
 
 static int by_size(const void *a, const void *b)
 {
-    const struct br_order_point *x = a, *y = b;
+    const struct br_point *x = a, *y = b;
     return (x->z < y->z) - (x->z > y->z);
 }
 
@@ -388,7 +388,7 @@ static enum br_status find_order(struct br_work_program *program, enum line what
     static const double least = 0.05; /* of the finest error, a floor that a forecast would miss */
     const struct br_work_point *p = program->point;
     const size_t count = program->points;
-    struct br_order_point *at = br_allocate(count + 1, sizeof *at);
+    struct br_point *at = br_allocate(count + 1, sizeof *at);
     struct br_line_order found;
     size_t taken = 0;
     if (!at)
@@ -397,12 +397,12 @@ static enum br_status find_order(struct br_work_program *program, enum line what
         const double cost = p[i].cost - program->start;
         const bool small = p[i].is_start || cost <= 2 * p[i].half;
         if (what == COST_OVER_SIZE && !small && !isnan(p[i].z))
-            at[taken++] = (struct br_order_point){
+            at[taken++] = (struct br_point){
                 .z = p[i].z, .error = 1 / cost, .deviation = p[i].half / 2 / pow(cost, 2)};
         else if (what == ERROR_OVER_SIZE && !isnan(p[i].z))
-            at[taken++] = (struct br_order_point){.z = p[i].z, .error = p[i].error};
+            at[taken++] = (struct br_point){.z = p[i].z, .error = p[i].error};
         else if (what == ERROR_OVER_COST && !small && p[i].own)
-            at[taken++] = (struct br_order_point){.z = 1 / cost, .error = p[i].error};
+            at[taken++] = (struct br_point){.z = 1 / cost, .error = p[i].error};
     }
     qsort(at, taken, sizeof *at, by_size);
     const enum br_status status = br_line_order_find(at, taken, &found, err);

@@ -9,12 +9,6 @@
 #include "orders/orders.h"
 #include "plots/pictures.h"
 
-static const struct br_quantity *quantity_of(const struct br_orders *o,
-                                             const struct br_quantity_orders *of)
-{
-    return &o->numbers->quantity[of->quantity];
-}
-
 /* A foreign name, shortened by whole characters; plain, or as markup. */
 enum { NAME = 40, MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
 static const char *shortened(const char *name, char *text)
@@ -67,8 +61,8 @@ static const char *title_of(const struct br_orders *o, const struct br_quantity_
     char text[96];
     const char *between = ": ";
     const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
-    shortened(quantity_of(o, of)->name, title);
-    if (quantity_of(o, of)->is_value) {
+    shortened(br_quantity_of(o, of)->name, title);
+    if (br_quantity_of(o, of)->is_value) {
         say_value(of->lines == 1 ? &of->line->limits.gci : NULL, &of->limit, strcat(title, ": "),
                   TITLE);
         return title;
@@ -158,7 +152,7 @@ static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_a
         const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
         const char *unit = o->numbers->quantity[o->of[i].quantity].unit;
         char x[96], quoted[MARKUP];
-        if (!finest || quantity_of(o, &o->of[i])->is_value)
+        if (!finest || br_quantity_of(o, &o->of[i])->is_value)
             continue;
         if (!p) {
             name_axis(o->numbers, axis, x);
@@ -218,7 +212,7 @@ static void add_curve(struct br_figure *f, const struct br_gci *g, double h, dou
 static void add_value(struct br_figure *f, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line)
 {
-    const struct br_quantity *q = quantity_of(o, of);
+    const struct br_quantity *q = br_quantity_of(o, of);
     const struct br_gci *g = &line->limits.gci;
     const struct br_estimate *limit = &line->limits.limit.value;
     const size_t rows = line->observed.points + 1;
@@ -268,7 +262,7 @@ static void say_title(const struct br_orders *o, char *title, size_t size)
     size_t said = 0;
     for (size_t i = 0; i < o->count && said < MOST; i++) {
         const struct br_quantity_orders *of = &o->of[i];
-        const bool value = quantity_of(o, of)->is_value;
+        const bool value = br_quantity_of(o, of)->is_value;
         const char *before = said ? "; " : value ? "" : "Order of ";
         if (!of->lines)
             continue;
@@ -294,7 +288,7 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
     for (size_t i = 0; i < orders->count; i++)
         for (enum br_axis axis = 0; axis < BR_AXES && f.panels < BR_FIGURE_PANELS; axis++) {
             const struct br_orders_line *line = br_orders_finest(&orders->of[i], axis);
-            if (line && quantity_of(orders, &orders->of[i])->is_value)
+            if (line && br_quantity_of(orders, &orders->of[i])->is_value)
                 add_value(&f, orders, &orders->of[i], line);
         }
     if (f.panels == 1 && !f.panel[0].log_x)

@@ -183,8 +183,8 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
             br_put_shown(d, "%s", br_expectation_text(e, expected));
             BR_PUT_CELLS(d, br_if(e->tolerance > 0, br_number(e->tolerance)),
                          br_if(e->highest > 0, br_number(e->highest)),
-                         br_text(*e->why ? e->why : NULL), br_text(c->law),
-                         br_number(c->order.value));
+                         br_text(*e->why ? e->why : NULL),
+                         br_text(c->law ? br_law_text(c->law) : NULL), br_number(c->order.value));
             br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
             BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_number(c->margin),
                          br_number(c->constant), br_number(e->floor), br_number(e->ceiling));

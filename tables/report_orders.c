@@ -6,12 +6,6 @@
 #include "tables/report_cells.h"
 #include "tables/reports.h"
 
-static const struct br_quantity *quantity_of(const struct br_orders *o,
-                                             const struct br_quantity_orders *of)
-{
-    return &o->numbers->quantity[of->quantity];
-}
-
 enum {
     MOST_NAMED = BR_MOST_ANSWERS - 6, /* quantities with an answer; the tables have all */
     MOST_BESIDE = 4                   /* in one table of rows */
@@ -37,7 +31,7 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
     for (int other = 1; other <= 3; other++)
         if (other != assumed) {
             br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
-                        br_orders_in_dimension(o, order, other));
+                        order * other / o->numbers->dimension);
             first = false;
         }
     br_put_more(d, ")");
@@ -54,7 +48,7 @@ static void say_meaning(struct br_document *d, const struct br_orders *o,
                         : axis == BR_AXIS_SPACE               ? "half the mesh size"
                                                               : "half the time step";
     const bool joint = br_joint_describes(&of->joint);
-    const char *number = quantity_of(o, of)->is_value ? "distance to the limit" : "error";
+    const char *number = br_quantity_of(o, of)->is_value ? "distance to the limit" : "error";
     const double factor = exp2(order), whole = round(order);
     const bool is_part = whole >= 1 && whole <= 4 && fabs(factor / exp2(whole) - 1) < 0.02;
     br_put_more(d, ": %s, ", finer);
@@ -99,7 +93,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
                       enum br_axis axis, bool *first)
 {
     char text[64];
-    const bool joint = br_joint_describes(&of->joint), value = quantity_of(o, of)->is_value;
+    const bool joint = br_joint_describes(&of->joint), value = br_quantity_of(o, of)->is_value;
     const struct br_estimate *order = &of->answer[axis].order;
     const bool none = !isfinite(order->value) || order->value <= 0 || order->low <= 0;
     if (value && isnan(order->value))
@@ -162,7 +156,7 @@ static void say_next(struct br_document *d, const struct br_orders *o,
     const struct br_resolution_column *column = o->numbers->column[f.line->axis];
     br_put_more(d, "%s%s = %s would give ", separator(first), column->name,
                 br_numbers_text(column, given, (char[32]){0}));
-    if (quantity_of(o, of)->is_value)
+    if (br_quantity_of(o, of)->is_value)
         br_put_more(d, "a GCI of %.2g %%", 100 * next);
     else
         br_put_more(d, "%.1e", next);
@@ -274,7 +268,7 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
                     br_interval_text(&limit->value, (char[128]){0}, 128));
     else
         br_put_more(d, "%sno limit", separator(first));
-    if (quantity_of(o, of)->is_value && of->lines == 1 && isfinite(g->fine.index)) {
+    if (br_quantity_of(o, of)->is_value && of->lines == 1 && isfinite(g->fine.index)) {
         br_put_more(d, ", p = %.2f", g->order);
         if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
             say_dimension(d, o, g->order);
@@ -372,7 +366,7 @@ static void say_advice(struct br_document *d, const struct br_orders *o,
     const bool none = !isfinite(order->value) || order->low <= 0;
     if (br_orders_is_grid(o) || isfinite(line->observed.factor.low))
         return;
-    if (quantity_of(o, of)->is_value)
+    if (br_quantity_of(o, of)->is_value)
         say_restless(d, o, of, line);
     else if (!none)
         say_unstable(d, line);
@@ -385,7 +379,7 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = &of->line[0];
-    if (!quantity_of(o, of)->is_value || of->lines != 1)
+    if (!br_quantity_of(o, of)->is_value || of->lines != 1)
         return;
     if (br_gci_is_far(&line->limits.gci, o->formal))
         br_put_more(d,
@@ -393,15 +387,6 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                     "(2010) the GCI is %.2g %%.",
                     o->formal, o->assumed_formal ? " (assumed)" : "",
                     100 * br_gci_limited(&line->limits.gci, o->formal));
-}
-
-/* Where costs differ, and grow by more than a tenth of an order. */
-static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis,
-                       bool differ)
-{
-    if (differ && growth->value >= 0.1 && growth->low > 0 && br_order_determined(growth))
-        br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
-                      br_order_text(growth, (char[64]){0}, 64));
 }
 
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
@@ -420,7 +405,7 @@ static void put_number(struct br_document *d, const struct br_orders *o,
 {
     const struct br_numbers *n = o->numbers;
     const struct br_numbers_row *r = &n->row[row];
-    const struct br_quantity *q = quantity_of(o, of);
+    const struct br_quantity *q = br_quantity_of(o, of);
     const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
     const double found = r->number[of->quantity];
@@ -463,8 +448,8 @@ static void put_rows(struct br_document *d, const struct br_orders *o, size_t fr
                      unsigned flags)
 {
     const bool people = flags & BR_FOR_PEOPLE, all = to - from == o->count;
-    const char *first = quantity_of(o, &o->of[from])->name;
-    const char *last = quantity_of(o, &o->of[to - 1])->name;
+    const char *first = br_quantity_of(o, &o->of[from])->name;
+    const char *last = br_quantity_of(o, &o->of[to - 1])->name;
     br_put_table(d, people ? "" : br_format(d, "rows-%zu", from + 1),
                  people && all ? "Row by row"
                  : people      ? br_format(d, "Row by row, %s to %s", first, last)
@@ -541,7 +526,7 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
             const struct br_orders_line *line = &o->of[i].line[l];
             for (size_t t = 0; t < line->limits.triples && line->limits.triples > 1; t++) {
                 const struct br_gci *g = &line->limits.triple[t];
-                BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
                            br_text(br_axis_letters[line->axis]), br_text(line->at),
                            br_number(line->finest_of[t]));
                 br_put_shown(d, "%s",
@@ -574,8 +559,8 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
             const double size = br_orders_needed(o, &f, wanted);
             if (isnan(size))
                 break;
-            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
-                       br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
+            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
+                       br_text(br_quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
                        br_number(wanted), br_text(column->name), br_number(size));
             if (column->is_size) /* foretold: no more digits are known */
                 br_put_shown(d, "%s = %.4g", column->name, size);
@@ -608,15 +593,15 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         const struct br_orders_line *line =
             of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
         bool first = true;
-        br_put_answer(d, "%s:", quantity_of(o, of)->name);
+        br_put_answer(d, "%s:", br_quantity_of(o, of)->name);
         if (!line && !of->flag) /* of a grid the answer says so */
             br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
-        if (line && quantity_of(o, of)->is_value)
+        if (line && br_quantity_of(o, of)->is_value)
             say_limit(d, o, of, &first);
         say_orders(d, o, of, &first);
         say_next(d, o, of, &first);
-        if (quantity_of(o, of)->window)
-            br_put_more(d, "%srows by hand: %s", separator(&first), quantity_of(o, of)->window);
+        if (br_quantity_of(o, of)->window)
+            br_put_more(d, "%srows by hand: %s", separator(&first), br_quantity_of(o, of)->window);
         br_put_more(d, ".");
         if (br_joint_describes(&of->joint) && of->joint.left_out)
             say_cells_left_out(d, o, of);
@@ -632,7 +617,10 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     if (o->count > MOST_NAMED)
         br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
-        say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
+        if (br_orders_costs_differ(o) && growth[axis].value >= 0.1 && growth[axis].low > 0 &&
+            br_order_determined(&growth[axis]))
+            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
+                          br_order_text(&growth[axis], (char[64]){0}, 64));
     say_missing(d, o);
     if (o->tied)
         br_put_answer(d,
@@ -669,7 +657,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
             const struct br_case *c = &line->observed;
-            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at));
             put_order(d, &c->order);
             BR_PUT_CELLS(d, br_count(c->points), br_count(c->used),
@@ -696,7 +684,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         const struct br_joint_fit *f = &o->of[i].joint;
         if (!f->converged)
             continue;
-        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name));
+        BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name));
         for (int axis = 0; axis < BR_AXES; axis++)
             put_order(d, &f->order[axis]);
         BR_PUT_CELLS(d, br_number(f->c[BR_AXIS_SPACE].value), br_number(f->c[BR_AXIS_TIME].value),
@@ -732,11 +720,11 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     };
     BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, limits_columns);
     for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++) {
+        for (size_t l = 0; l < o->of[i].lines && br_quantity_of(o, &o->of[i])->is_value; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
             const struct br_grid_limit *limit = &line->limits.limit;
             const struct br_gci *g = &line->limits.gci;
-            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
                        br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
@@ -748,10 +736,10 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                 br_number(br_gci_limited(g, o->formal)));
         }
     for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
-        if (quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {
+        if (br_quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {
             const struct br_grid_limit *limit = &o->of[i].limit;
-            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_text("h and k"), br_text(""),
-                       br_text(br_sequence_text(limit->sequence)));
+            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name), br_text("h and k"),
+                       br_text(""), br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
         }
     br_put_across(d);

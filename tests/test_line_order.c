@@ -91,16 +91,16 @@ static const struct {
     [BR_LAW_EXPONENTIAL] = {exponential, NAN, 0, 0},
 };
 
-static void find(const struct br_order_point *point, size_t count, struct br_line_order *found)
+static void find(const struct br_point *point, size_t count, struct br_line_order *found)
 {
     MUST(br_line_order_find(point, count, found, &err));
 }
 
-static void make(double (*error)(double z), double unit, struct br_order_point *point)
+static void make(double (*error)(double z), double unit, struct br_point *point)
 {
     for (size_t i = 0; i < ROWS; i++) {
         const double z = ldexp(1, -(int)i);
-        point[i] = (struct br_order_point){.z = z, .error = unit * error(z)};
+        point[i] = (struct br_point){.z = z, .error = unit * error(z)};
     }
 }
 
@@ -108,7 +108,7 @@ TEST(test_each_law)
 {
     assert_int_equal(sizeof lines / sizeof *lines, BR_LAWS);
     for (enum br_law law = 0; law < BR_LAWS; law++) {
-        struct br_order_point point[ROWS];
+        struct br_point point[ROWS];
         struct br_line_order found;
         make(lines[law].error, 1, point);
         find(point, ROWS, &found);
@@ -162,10 +162,10 @@ TEST(test_exponential_to_a_floor)
 {
     static const double error[] = {1.93e-2, 2.064e-4, 2.016e-8, 1.063e-15, 7.267e-16, 8.576e-16};
     enum { COUNT = sizeof error / sizeof *error };
-    struct br_order_point point[COUNT];
+    struct br_point point[COUNT];
     struct br_line_order found;
     for (size_t i = 0; i < COUNT; i++)
-        point[i] = (struct br_order_point){.z = ldexp(0.25, -(int)i), .error = error[i]};
+        point[i] = (struct br_point){.z = ldexp(0.25, -(int)i), .error = error[i]};
     find(point, COUNT, &found);
     assert_true(found.law[BR_LAW_EXPONENTIAL] > 0.5 && found.power == 1 && found.last == 2);
     assert_true(found.rate.low > 1 && found.rate.low < 1.15 && found.rate.high > 1.15 &&
@@ -180,7 +180,7 @@ TEST(test_small_orders)
     } small[] = {{inverse_logarithm, 4}, {inverse_square, 4}, {floor_that_falls, 6}, {roots, 4}};
     for (size_t i = 0; i < sizeof small / sizeof *small; i++)
         for (size_t rows = small[i].least; rows <= ROWS; rows++) {
-            struct br_order_point point[ROWS];
+            struct br_point point[ROWS];
             struct br_line_order f;
             make(small[i].error, 1, point);
             find(point, rows, &f);
@@ -194,7 +194,7 @@ TEST(test_small_orders)
 TEST(test_what_is_stated)
 {
     for (enum br_law law = 0; law < BR_LAW_EXPONENTIAL; law++) {
-        struct br_order_point point[ROWS];
+        struct br_point point[ROWS];
         struct br_line_order f;
         double sum = 0;
         make(lines[law].error, 1, point);
@@ -214,7 +214,7 @@ TEST(test_what_is_stated)
 /* Rows that do not count are named by their place among all points. */
 TEST(test_left_out)
 {
-    struct br_order_point point[MOST];
+    struct br_point point[MOST];
     struct br_line_order found;
     make(power, 1, point);
     point[0].error = 7; /* coarse: not asymptotic */
@@ -251,11 +251,11 @@ TEST(test_left_out)
 /* Two coarse rows may be left out, but not half of the line. */
 TEST(test_mostly_coarse)
 {
-    struct br_order_point point[ROWS];
+    struct br_point point[ROWS];
     struct br_line_order found;
     for (size_t i = 0; i < ROWS; i++) {
         const double z = ldexp(1, -(int)i);
-        point[i] = (struct br_order_point){.z = z, .error = i < 5 ? z : 32 * z * z};
+        point[i] = (struct br_point){.z = z, .error = i < 5 ? z : 32 * z * z};
     }
     find(point, ROWS, &found);
     if (!(found.order.low < 1.99)) /* three rows of order 2 behind five of order 1 */
@@ -264,7 +264,7 @@ TEST(test_mostly_coarse)
 
 TEST(test_too_few)
 {
-    struct br_order_point point[ROWS];
+    struct br_point point[ROWS];
     struct br_line_order found;
     make(power, 1, point);
     for (size_t count = 0; count < 3; count++) {
@@ -278,11 +278,11 @@ TEST(test_too_few)
 
 TEST(test_root_of_a_logarithm)
 {
-    struct br_order_point point[ROWS];
+    struct br_point point[ROWS];
     struct br_line_order found;
     for (size_t i = 0; i < ROWS; i++) {
         const double z = ldexp(1, -(int)i);
-        point[i] = (struct br_order_point){.z = z, .error = z * sqrt(2 - log(z))};
+        point[i] = (struct br_point){.z = z, .error = z * sqrt(2 - log(z))};
     }
     find(point, ROWS, &found);
     if (!(found.order.low <= 1 && 1 <= found.order.high && found.order.high < 1.1 &&
@@ -293,7 +293,7 @@ TEST(test_root_of_a_logarithm)
 /* The value is the median: in the middle of the interval where the scatter has no side. */
 TEST(test_median)
 {
-    struct br_order_point point[ROWS];
+    struct br_point point[ROWS];
     struct br_line_order found;
     make(power, 1, point);
     for (size_t i = 0; i < ROWS; i++)
@@ -304,12 +304,12 @@ TEST(test_median)
 
 /* Errors h^p with a floor of this size, and scatter. */
 static void draw(struct br_test_random *random, double p, double floor, double scatter,
-                 struct br_order_point point[SOME])
+                 struct br_point point[SOME])
 {
     for (size_t i = 0; i < SOME; i++) {
         const double z = pow(0.5, (double)i);
         const double noise = exp(scatter * br_test_uniform(random, -1, 1));
-        point[i] = (struct br_order_point){.z = z, .error = (pow(z, p) + floor) * noise};
+        point[i] = (struct br_point){.z = z, .error = (pow(z, p) + floor) * noise};
     }
 }
 
@@ -322,14 +322,14 @@ TEST(test_means)
     size_t covered = 0;
     enum { SETS = 100 };
     for (size_t set = 0; set < SETS; set++) {
-        struct br_order_point point[SOME];
+        struct br_point point[SOME];
         struct br_line_order a, b, c;
         for (size_t i = 0; i < SOME; i++) {
             const double z = pow(0.5, (double)i);
             const double scatter = i < SOME / 2 ? 0.05 : 0.005;
             const double noise = br_test_uniform(&random, -1, 1) + br_test_uniform(&random, -1, 1) +
                                  br_test_uniform(&random, -1, 1);
-            point[i] = (struct br_order_point){.z = z, .error = z * exp(scatter * noise)};
+            point[i] = (struct br_point){.z = z, .error = z * exp(scatter * noise)};
         }
         MUST(br_line_order_find(point, SOME, &b, &err));
         for (size_t i = 0; i < SOME; i++)
@@ -355,14 +355,13 @@ TEST(test_units)
 {
     struct br_test_random random = {6};
     for (size_t set = 0; set < 40; set++) {
-        struct br_order_point point[SOME], other[SOME];
+        struct br_point point[SOME], other[SOME];
         struct br_line_order a, b;
         draw(&random, 1 + (double)(set % 3), set % 2 ? 1e-3 : 0, set % 5 ? 0.02 : 0, point);
         if (set % 4 == 3)
             point[3].error *= 3; /* an outlier */
         for (size_t i = 0; i < SOME; i++)
-            other[i] =
-                (struct br_order_point){.z = 1e3 * point[i].z, .error = 1e-9 * point[i].error};
+            other[i] = (struct br_point){.z = 1e3 * point[i].z, .error = 1e-9 * point[i].error};
         MUST(br_line_order_find(point, SOME, &a, &err));
         MUST(br_line_order_find(other, SOME, &b, &err));
         const double little = 3e-3 * (a.high99 - a.low99) + 1e-7; /* quantiles are searched */
@@ -382,11 +381,11 @@ TEST(test_units)
  * what is left aside has no part in it. */
 TEST(test_fit)
 {
-    struct br_order_point point[SOME];
+    struct br_point point[SOME];
     const struct br_estimate order = {2, 1.5, 3};
     for (size_t i = 0; i < SOME; i++) {
         point[i] =
-            (struct br_order_point){.z = pow(0.5, (double)i), .z_against = pow(0.5, (double)i + 1)};
+            (struct br_point){.z = pow(0.5, (double)i), .z_against = pow(0.5, (double)i + 1)};
         point[i].error = 7 * (point[i].z * point[i].z - point[i].z_against * point[i].z_against);
     }
     point[0].error = NAN;
@@ -413,10 +412,10 @@ TEST(test_band_of_a_wide_interval)
 {
     static const struct br_estimate order = {3.7, -11, 18.7};
     for (int differences = 0; differences < 2; differences++) {
-        struct br_order_point point[SOME];
+        struct br_point point[SOME];
         for (size_t i = 0; i < SOME; i++) {
             const double z = pow(0.5, (double)i);
-            point[i] = (struct br_order_point){
+            point[i] = (struct br_point){
                 .z = z, .z_against = differences ? z / 2 : 0, .error = pow(z, 3.7)};
         }
         for (size_t i = 0; i < SOME; i++) {
@@ -442,12 +441,11 @@ TEST(test_band_of_a_wide_interval)
  */
 TEST(test_two_terms)
 {
-    struct br_order_point point[ROWS];
+    struct br_point point[ROWS];
     struct br_line_order found;
     for (size_t i = 0; i < 6; i++) {
         const double z = ldexp(1, -(int)i);
-        point[i] =
-            (struct br_order_point){.z = z, .error = 3 * z * z * (1 + 0.2 * z - 0.15 * z * z)};
+        point[i] = (struct br_point){.z = z, .error = 3 * z * z * (1 + 0.2 * z - 0.15 * z * z)};
     }
     find(point, 6, &found);
     if (!(found.order.low <= 2 && 2 <= found.order.high))
@@ -460,12 +458,11 @@ TEST(test_break_between_rows)
 {
     for (size_t l = 0; l < 4; l++) {
         const size_t fine = 2 + l % 2, rows = l < 2 ? 5 : 7;
-        struct br_order_point point[ROWS];
+        struct br_point point[ROWS];
         struct br_line_order found;
         for (size_t i = 0; i < rows; i++) {
             const double z = ldexp(1, -(int)i), meet = 1.4 * ldexp(1, (int)fine - (int)rows);
-            point[i] =
-                (struct br_order_point){.z = z, .error = fmax(z * z, sqrt(meet) * pow(z, 1.5))};
+            point[i] = (struct br_point){.z = z, .error = fmax(z * z, sqrt(meet) * pow(z, 1.5))};
         }
         find(point, rows, &found);
         if (!(found.order.low <= 1.501 && 1.999 <= found.order.high))
@@ -475,13 +472,13 @@ TEST(test_break_between_rows)
 }
 
 /* Errors whose orders from row to row are given. */
-static size_t of_rates(const double *rate, struct br_order_point *point)
+static size_t of_rates(const double *rate, struct br_point *point)
 {
     size_t count = 1;
-    point[0] = (struct br_order_point){.z = 1, .error = 1};
+    point[0] = (struct br_point){.z = 1, .error = 1};
     for (; rate[count - 1] != 0; count++)
-        point[count] = (struct br_order_point){
-            .z = point[count - 1].z / 2, .error = point[count - 1].error * exp2(-rate[count - 1])};
+        point[count] = (struct br_point){.z = point[count - 1].z / 2,
+                                         .error = point[count - 1].error * exp2(-rate[count - 1])};
     return count;
 }
 
@@ -492,7 +489,7 @@ TEST(test_kinks)
         {4, 4, 4, 4, 4, 2, 2, 2}, {2.5, 2.5, 2.5, 3, 3},       {2, 2, 2, 1, 1},
         {1, 1, 1, 1, 3, 3},       {2, 2, 2, 2, 1.5, 1.5, 1.5}, {1.5, 1.5, 1.5, 2, 2, 2}};
     for (size_t l = 0; l < sizeof rates / sizeof *rates; l++) {
-        struct br_order_point point[MOST];
+        struct br_point point[MOST];
         struct br_line_order f;
         const size_t rows = of_rates(rates[l], point);
         find(point, rows, &f);
@@ -508,7 +505,7 @@ TEST(test_growth_at_the_fine_end)
 {
     static const double rates[][MOST] = {{2, 2, 2, -1, -1, -1}, {1, 1, 1, -0.5, -0.5, -0.5, -0.5}};
     for (size_t l = 0; l < sizeof rates / sizeof *rates; l++) {
-        struct br_order_point point[MOST];
+        struct br_point point[MOST];
         struct br_line_order f;
         find(point, of_rates(rates[l], point), &f);
         assert_true(f.high99 < 0);
@@ -519,7 +516,7 @@ TEST(test_growth_at_the_fine_end)
 TEST(test_least_width)
 {
     for (size_t rows = 3; rows <= ROWS; rows++) {
-        struct br_order_point point[ROWS];
+        struct br_point point[ROWS];
         struct br_line_order f;
         make(power, 1, point);
         find(point, rows, &f);
@@ -539,13 +536,13 @@ TEST(test_interval_of_noise)
                     {7, 2.570582, 4.032143}};
     static const double noise[] = {0.02, -0.03, 0.03, -0.02, 0.01, -0.025, 0.03};
     for (size_t l = 0; l < sizeof lines_of / sizeof *lines_of; l++) {
-        struct br_order_point point[ROWS];
+        struct br_point point[ROWS];
         struct br_line_order found;
         const double n = (double)lines_of[l].rows;
         double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
         for (size_t i = 0; i < lines_of[l].rows; i++) {
             const double log_z = -(double)i * log(2), log_e = 2 * log_z + noise[i];
-            point[i] = (struct br_order_point){.z = exp(log_z), .error = exp(log_e)};
+            point[i] = (struct br_point){.z = exp(log_z), .error = exp(log_e)};
             x += log_z, y += log_e, xx += log_z * log_z, xy += log_z * log_e, yy += log_e * log_e;
         }
         xx -= x * x / n, xy -= x * y / n, yy -= y * y / n;
@@ -601,7 +598,7 @@ TEST(test_weights)
 {
     enum { HAND = 5 };
     for (size_t odd = 0; odd < HAND; odd++) {
-        struct br_order_point point[HAND];
+        struct br_point point[HAND];
         struct br_line_order found;
         double slope[3]; /* by weights of 1, 1/sigma and 1/sigma^2 */
         for (int power_of = 0; power_of < 3; power_of++) {
@@ -610,7 +607,7 @@ TEST(test_weights)
                 const double log_z = -(double)i * log(2);
                 const double log_e = 2 * log_z + (i == odd ? 0.03 : i % 2 ? 0.003 : -0.003);
                 const double sigma = i == odd ? 0.02 : 0.002, weight = pow(sigma, -power_of);
-                point[i] = (struct br_order_point){
+                point[i] = (struct br_point){
                     .z = exp(log_z), .error = exp(log_e), .deviation = sigma * exp(log_e)};
                 w += weight, x += weight * log_z, y += weight * log_e;
                 xx += weight * log_z * log_z, xy += weight * log_z * log_e;

@@ -4,9 +4,7 @@
 #ifndef BR_ORDERS_EXPECTATION_CASE_H
 #define BR_ORDERS_EXPECTATION_CASE_H
 
-#include "base/status.h"
-#include "orders/axis.h"
-#include "orders/estimate.h"
+#include "orders/line/line_order.h"
 
 enum br_verify_kind {
     BR_VERIFY_SPACE, /* over h, at one k: each mesh against the next, so the time error is the same
@@ -61,26 +59,6 @@ enum br_verdict {
 };
 extern const char *const br_verdict_names[]; /* "PASS", "FAIL", "INCONCLUSIVE" */
 
-/* One error of a study. */
-struct br_point {
-    struct br_resolution at, against; /* against: zeros for the continuous problem */
-    double z, z_against;              /* h/L or k/T, what the order is in; and that of `against` */
-    double error;                     /* in the norm's unit */
-    double constant;                  /* C of e = C (z^order - z_against^order) */
-    char label[64];                   /* "n = 40", for messages */
-    enum br_flag flag;                /* why it is left out */
-    bool used;                        /* for the order: it is not left out */
-    bool lost; /* the search for the order left it out (line_order.h), and nothing before it */
-    char failure[256];      /* of the march; "": it went well */
-    struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
-                               the order is that of a joint fit, which is no line */
-    double deviation;       /* the error's standard deviation, where it is a mean; 0: it is none */
-    double rounding;        /* half a unit of its last digit, where it was printed; 0: it was not */
-};
-
-/* The order that two points show, the coarser one first; NaN as br_order_rate. */
-double br_point_rate(const struct br_point *coarse, const struct br_point *fine);
-
 /* An expectation and what was observed. */
 struct br_case {
     enum br_verify_kind kind;
@@ -96,8 +74,8 @@ struct br_case {
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
     const char *window;        /* rows by hand, "the 3 finest of 6"; NULL: all; borrowed */
-    const char *law;  /* what explains the errors best, beside one power; NULL: one power */
-    double constant;  /* the largest of the finest five used points'; NaN: none */
+    enum br_law law;           /* what explains the errors best; BR_LAW_POWER: one power alone */
+    double constant;           /* the largest of the finest five used points'; NaN: none */
     const char *open; /* why there is no verdict, and what would show an order; NULL; borrowed */
     bool of_degree;   /* z is one over a degree and one: there is no order */
     bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's
@@ -124,5 +102,14 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 
 /* The verdict on what was observed. */
 void br_case_decide(struct br_case *c);
+
+/* ---- growth.c ---- */
+
+/* Where the errors begin to grow, by one law over all of them; NULL: they do not grow so. */
+const struct br_point *br_turning_point(const struct br_case *c);
+
+/* What one power leaves of so many coarse rows, in squares of logarithms; rows without an error are
+ * left aside. */
+double br_squares_of_power(const struct br_case *c, size_t rows);
 
 #endif

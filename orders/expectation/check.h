@@ -20,9 +20,8 @@ struct br_check {
     /* out */
     struct br_error failure; /* BR_BAD_INPUT: it cannot be verified, with file and line; there are
                                 no cases then */
-    struct br_case *cases;   /* by study, in the order of the expectations; room for the next power
-                                of two; owned */
-    size_t count;
+    struct br_case *cases;   /* by study, in the order of the expectations; owned */
+    size_t count, room;
     double seconds;       /* of all marches of the solver, one thread */
     double element_steps; /* of these, elements times steps, a field */
 };

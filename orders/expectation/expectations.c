@@ -275,22 +275,6 @@ static enum br_status observe(const struct br_orders *o, const struct br_quantit
     return br_orders_observe(o->numbers->column[line->axis], BR_VERIFY_LEAST_POINTS, c, err);
 }
 
-/* A further case of a check; NULL: no memory. */
-static struct br_case *add_case(struct br_check *check)
-{
-    const size_t count = check->count;
-    if ((count & (count - 1)) == 0) { /* it is full */
-        struct br_case *more = br_allocate(count ? 2 * count : 1, sizeof *more);
-        if (!more)
-            return NULL;
-        if (count)
-            memcpy(more, check->cases, count * sizeof *more);
-        free(check->cases);
-        check->cases = more;
-    }
-    return &check->cases[check->count++];
-}
-
 /* No order passes where the finest run failed, unless a window leaves that out. The rows are
  * sorted, so the last one of the finest size has the finest other size. */
 static void need_finest(const struct br_numbers *n, size_t quantity, enum br_axis axis,
@@ -325,11 +309,10 @@ enum br_status br_orders_decide(const struct br_orders *o, const struct br_quant
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of %s in %s is expected, and there are no three sizes of one "
                        "line",
-                       check->path, o->numbers->quantity[of->quantity].name,
-                       br_axis_letters[e->axis]);
-    struct br_case *c = add_case(check);
-    if (!c)
+                       check->path, br_quantity_of(o, of)->name, br_axis_letters[e->axis]);
+    if (!br_grow(&check->cases, check->count, &check->room, sizeof *check->cases))
         return br_no_memory(err, "the verdicts");
+    struct br_case *c = &check->cases[check->count++];
     if (joint ? br_orders_joint_case(o, of, e->axis, c, err)
               : observe(o, of, line, &e->band, c, err))
         return err->status;

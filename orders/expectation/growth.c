@@ -4,7 +4,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
-#include "orders/expectation/growth.h"
+#include "orders/expectation/case.h"
 
 /* ---- the law ---- */
 

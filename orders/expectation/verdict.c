@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/words.h"
-#include "orders/expectation/growth.h"
 #include "orders/line/line_order.h"
 
 const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
@@ -88,48 +87,26 @@ static void find_constants(struct br_case *c)
     }
 }
 
-/* As the search for an order takes it. */
-static struct br_order_point order_point(const struct br_point *p)
-{
-    return (struct br_order_point){p->z, p->z_against, p->error, p->deviation, p->rounding};
-}
-
-double br_point_rate(const struct br_point *coarse, const struct br_point *fine)
-{
-    const struct br_order_point both[] = {order_point(coarse), order_point(fine)};
-    return br_order_rate(&both[0], &both[1]);
-}
-
 /* The order with its intervals, from the points that are not left out; those that do not show it
  * are left out then. */
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
-    struct br_order_point *all = br_allocate(c->points, sizeof *all);
     struct br_line_order found;
-    if (!all)
-        return br_no_memory(err, "the verdict");
-    for (size_t i = 0; i < c->points; i++) {
-        all[i] = order_point(&c->point[i]);
-        all[i].error = c->point[i].used ? all[i].error : NAN;
-    }
-    const enum br_status status = br_line_order_find(all, c->points, &found, err);
+    const enum br_status status = br_line_order_find(c->point, c->points, &found, err);
     c->order = found.order;
     c->low99 = found.low99;
     c->high99 = found.high99;
     c->factor = br_exponential_factor(&found);
     for (enum br_law law = BR_LAW_LOWER; law < BR_LAWS; law++)
-        c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
+        c->law = found.law[law] > 0.5 ? law : c->law;
     const bool known = isfinite(found.order.value) || isfinite(found.rate.value);
     for (size_t i = 0; i < c->points && known; i++)
         if (c->point[i].used) {
-            c->point[i].flag = br_line_order_flag(&found, all, i);
+            c->point[i].flag = br_line_order_flag(&found, c->point, i);
             c->point[i].lost = c->point[i].flag != BR_FLAG_NONE;
         }
     for (size_t i = 0; i < c->points; i++)
-        all[i].error = c->point[i].flag ? (double)NAN : all[i].error;
-    for (size_t i = 0; i < c->points; i++)
-        c->point[i].fit = br_line_fit(all, c->points, i, &c->order);
-    free(all);
+        c->point[i].fit = br_line_fit(c->point, c->points, i, &c->order);
     return status;
 }
 
@@ -565,7 +542,7 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     begin_note(c);
     c->low99 = c->high99 = NAN;
     c->factor = (struct br_estimate){NAN, NAN, NAN};
-    c->law = NULL;
+    c->law = BR_LAW_POWER;
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
         c->point[i].lost = false;
@@ -591,7 +568,8 @@ char *br_case_note(const struct br_case *c, char text[BR_CASE_NOTE])
 {
     snprintf(text, BR_CASE_NOTE, "%s", c->note);
     if (c->law)
-        br_append(text, BR_CASE_NOTE, "%sthe errors also show %s", *text ? "; " : "", c->law);
+        br_append(text, BR_CASE_NOTE, "%sthe errors also show %s", *text ? "; " : "",
+                  br_law_text(c->law));
     return text;
 }
 
@@ -601,7 +579,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
     c->low99 = order.low;
     c->high99 = order.high;
     c->constant = constant;
-    c->law = NULL;
+    c->law = BR_LAW_POWER;
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
         c->point[i].lost = false;
@@ -653,7 +631,7 @@ void br_check_clear(struct br_check *check)
         free(check->cases[i].point);
     free(check->cases);
     check->cases = NULL;
-    check->count = 0;
+    check->count = check->room = 0;
 }
 
 size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)

@@ -4,7 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#define OF(axis, what) (BR_OF_AXIS * (axis) + (what))
+bool br_joint_has(enum br_joint_kind kind, int axis)
+{
+    return kind != (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE);
+}
 
 static bool has_unknown(const struct br_family *f, int unknown)
 {
@@ -18,7 +21,7 @@ size_t br_joint_unknowns(const struct br_joint_law *law, int unknown[BR_UNKNOWNS
     for (int a = 0; a < BR_AXES; a++)
         for (int u = 0; u < BR_OF_AXIS && br_joint_has(law->kind, a); u++)
             if (has_unknown(law->of[a], u))
-                unknown[count++] = OF(a, u);
+                unknown[count++] = BR_OF(a, u);
     if (law->kind == BR_JOINT_BOTH && law->sum == BR_SUM_ANY)
         unknown[count++] = BR_THETA;
     if (law->floor)
@@ -47,7 +50,7 @@ static void fill_axis(const struct br_joint_cells *cells, const struct br_joint_
 {
     static const double step = 1e-4;
     const struct br_family *f = law->of[axis];
-    const double *v = &value[OF(axis, 0)], finest = cells->log_finest[axis];
+    const double *v = &value[BR_OF(axis, 0)], finest = cells->log_finest[axis];
     const double coarsest = f ? bend(f, v, 0, finest) : 0;
     double up[BR_OF_AXIS], down[BR_OF_AXIS];
     for (struct br_joint_size *s = cells->size[axis]; s < cells->size[axis] + cells->sizes[axis];
@@ -82,7 +85,7 @@ static bool allowed(const struct br_joint_law *law, const double value[BR_UNKNOW
     const double least = alone ? 0 : br_priors.least_order;
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_family *f = law->of[a];
-        const double *v = &value[OF(a, 0)], shape = f ? v[BR_SHAPE] : 0;
+        const double *v = &value[BR_OF(a, 0)], shape = f ? v[BR_SHAPE] : 0;
         if (!br_joint_has(law->kind, a))
             continue;
         if (!(v[BR_ORDER] > least && v[BR_ORDER] < most_order && fabs(shape) < 12))
@@ -135,7 +138,7 @@ static double residual_of(const struct br_joint_cells *cells, const struct mixin
         for (int a = 0; a < BR_AXES; a++) {
             const double factor = (e[a] + r * e[1 - a]) / square;
             for (int u = 0; u < BR_OF_AXIS; u++)
-                rate[OF(a, u)] = factor * (at[a]->rate[u] - ref[a]->rate[u]);
+                rate[BR_OF(a, u)] = factor * (at[a]->rate[u] - ref[a]->rate[u]);
         }
         rate[BR_THETA] = e[0] * e[1] / square * mix->rate;
         rate[BR_LOG_F] = mix->adds ? level / all : level * level / square;
@@ -352,7 +355,7 @@ static void minimise(struct br_joint_cells *cells, struct equations *e, struct b
             most = fmax(most, fabs(step[j]));
         }
         for (int a = 0; a < BR_AXES; a++) {
-            double *place = &next[OF(a, BR_PLACE)];
+            double *place = &next[BR_OF(a, BR_PLACE)];
             if (t->law.of[a] && t->law.of[a]->law == BR_LAW_KINK)
                 *place = fmin(fmax(*place, t->law.of[a]->low), t->law.of[a]->high);
         }
@@ -381,13 +384,6 @@ void br_joint_approach(struct br_joint_cells *cells, double robust, struct br_jo
     minimise(cells, &e, t, cells->priors ? 0.1 : 1e-12);
 }
 
-/* What a known deviation adds to the scale of Student's distribution, so that it widens the 95 %
- * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
-static double of_known(double freedom)
-{
-    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
-}
-
 /* How large the corrections of an axis are, 0 to 1. */
 static double change_of(const struct br_joint_cells *cells, const struct br_joint_trial *t,
                         int axis)
@@ -395,9 +391,9 @@ static double change_of(const struct br_joint_cells *cells, const struct br_join
     const struct br_family *f = t->law.of[axis];
     double most = 0;
     for (size_t i = 1; i < cells->sizes[axis] && f && f->law != BR_LAW_KINK; i++) {
-        const double off = fabs(
-            bend(f, &t->value[OF(axis, 0)], cells->size[axis][i].log_x, cells->log_finest[axis]) -
-            t->bend[axis]);
+        const double off = fabs(bend(f, &t->value[BR_OF(axis, 0)], cells->size[axis][i].log_x,
+                                     cells->log_finest[axis]) -
+                                t->bend[axis]);
         most = fmax(most, off / (1 + off));
     }
     return most;
@@ -434,7 +430,7 @@ static void set_open(const struct br_joint_cells *cells, const struct equations 
     const double change = change_of(cells, t, axis);
     t->open[axis] = hypot(slope * (br_priors.sure + br_priors.truncation * change +
                                    br_priors.next_term * change * change),
-                          of_known(t->freedom) * by_digits(cells, axis, share));
+                          br_scale_of_known(t->freedom) * by_digits(cells, axis, share));
 }
 
 /* The sum without priors, the covariance, and what follows from it. */
@@ -468,7 +464,7 @@ static void finish(struct br_joint_cells *cells, struct equations *e, struct br_
             t->covariance[i][j] = dot(inverse[i], inverse[j], n);
     for (int a = 0; a < BR_AXES; a++)
         t->bend[a] =
-            t->law.of[a] ? bend(t->law.of[a], &t->value[OF(a, 0)], 0, cells->log_finest[a]) : 0;
+            t->law.of[a] ? bend(t->law.of[a], &t->value[BR_OF(a, 0)], 0, cells->log_finest[a]) : 0;
     for (size_t j = 0; j < n; j++)
         if (e->unknown[j] < BR_THETA && e->unknown[j] % BR_OF_AXIS == BR_ORDER)
             set_open(cells, e, j, e->unknown[j] / BR_OF_AXIS, t);
@@ -495,9 +491,9 @@ void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AX
         for (size_t i = 0; i < cells->count; i++)
             if (cells->size[a][cells->cell[i].at[a]].x == 1)
                 least = fmin(least, cells->cell[i].log_error);
-        value[OF(a, BR_LOG_C)] = isfinite(least) ? least : 0;
-        value[OF(a, BR_ORDER)] = order[a];
-        value[OF(a, BR_SHAPE)] = value[OF(a, BR_PLACE)] = 0;
+        value[BR_OF(a, BR_LOG_C)] = isfinite(least) ? least : 0;
+        value[BR_OF(a, BR_ORDER)] = order[a];
+        value[BR_OF(a, BR_SHAPE)] = value[BR_OF(a, BR_PLACE)] = 0;
     }
     value[BR_THETA] = asin(r);
     value[BR_LOG_F] = cells->lowest - log(2);
@@ -509,4 +505,44 @@ double br_joint_shape_start(const struct br_family *f)
            : f->law == BR_LAW_KINK      ? 0.5
            : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1.5 * f->low))
                                         : log(f->low * f->high) / 2;
+}
+
+/* ---- a fit, once it is found ---- */
+
+bool br_joint_describes(const struct br_joint_fit *fit)
+{
+    return fit->converged && (fit->misfit <= 0.02 || fit->scatters);
+}
+
+double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
+                      const double ref[BR_AXES])
+{
+    double e[BR_AXES] = {0};
+    for (int a = 0; a < BR_AXES; a++)
+        if (br_joint_has(fit->kind, a))
+            e[a] = fit->c[a].value *
+                   (pow(x[a], fit->order[a].value) - pow(ref[a], fit->order[a].value));
+    const double r = fit->kind == BR_JOINT_BOTH ? fit->r.value : 0;
+    const double square = e[0] * e[0] + 2 * r * e[0] * e[1] + e[1] * e[1];
+    return sqrt(square < 0 ? 0 : square); /* NaN stays */
+}
+
+/* Where the errors of both axes subtract, an order inside the interval may show the least error. */
+struct br_estimate br_joint_band(const struct br_joint_fit *fit, enum br_axis axis, double middle,
+                                 const double x[BR_AXES], const double ref[BR_AXES])
+{
+    enum { ORDERS = 32 }; /* of the interval, from end to end; the last one is the order itself */
+    const struct br_estimate *order = &fit->order[axis];
+    struct br_estimate e = {NAN, NAN, NAN};
+    for (size_t i = 0; i <= ORDERS + 1; i++) {
+        struct br_joint_fit other = *fit;
+        double *p = &other.order[axis].value;
+        if (i <= ORDERS)
+            *p = order->low + (double)i / ORDERS * (order->high - order->low);
+        other.c[axis].value *= pow(middle, order->value - *p);
+        e.value = br_joint_model(&other, x, ref);
+        e.low = fmin(e.low, e.value); /* without the NaN of before */
+        e.high = fmax(e.high, e.value);
+    }
+    return e;
 }

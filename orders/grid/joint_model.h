@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One model of a grid of errors, and its fit; joint_fit.c chooses among models. */
+/* One model of a grid of errors, and its fit; joint_search.c chooses among models. */
 #ifndef BR_ORDERS_GRID_JOINT_MODEL_H
 #define BR_ORDERS_GRID_JOINT_MODEL_H
 
@@ -9,6 +9,7 @@
 /* The unknowns of a model: of each axis log C, the order, and of its law the parameter and the
  * place; theta with r = sin(theta); the logarithm of a floor. */
 enum { BR_LOG_C, BR_ORDER, BR_SHAPE, BR_PLACE, BR_OF_AXIS };
+#define BR_OF(axis, what) (BR_OF_AXIS * (axis) + (what))
 enum { BR_THETA = BR_OF_AXIS * BR_AXES, BR_LOG_F, BR_UNKNOWNS };
 
 /* How the errors of both axes are added: r unknown, 1, -1. */

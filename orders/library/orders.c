@@ -313,10 +313,9 @@ static enum br_status finish_check(struct beamrate_check *made, const struct br_
         if (numbers->unsettled)
             return br_fail(err, BR_BAD_INPUT, "an order of %.200s in %s is expected, and %s",
                            c->measure, c->kind == BR_VERIFY_SPACE ? "h" : "k", numbers->unsettled);
-        char *name = br_store_take(&made->names, strlen(c->measure) + 1, 1);
-        if (!name)
+        c->measure = br_store_copy(&made->names, c->measure);
+        if (!c->measure)
             return br_no_memory(err, "the verdicts");
-        c->measure = strcpy(name, c->measure);
     }
     return BR_OK;
 }

@@ -3,7 +3,6 @@
 #include "orders/limits/grid_convergence.h"
 
 #include <float.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
 static const double safety_observed = 1.25; /* with an observed order */
@@ -19,12 +18,12 @@ const char *br_sequence_text(enum br_sequence sequence)
     return texts[sequence];
 }
 
-/* The round-off that the difference of two values may have. */
-static double round_off_of(const double *value, size_t count)
+double br_round_off_of(const struct br_line_value *v, size_t count)
 {
-    double least, most;
-    gsl_stats_minmax(&least, &most, value, 1, count);
-    return 64 * DBL_EPSILON * fmax(fabs(least), fabs(most));
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, fabs(v[i].value));
+    return 64 * DBL_EPSILON * most;
 }
 
 /* ---- the grid convergence index ---- */
@@ -92,36 +91,36 @@ static double relative_to(double difference, double value)
     return value != 0 ? fabs(difference / value) : NAN;
 }
 
-/* h[0], value[0]: the coarser grid; h[1], value[1]: the finer one. order: NaN if there is none. */
-static struct br_gci_pair pair_of(const double *h, const double *value, double order)
+/* v[0]: the coarser grid; v[1]: the finer one. order: NaN if there is none. */
+static struct br_gci_pair pair_of(const struct br_line_value *v, double order)
 {
-    const double ratio = h[0] / h[1], fine = value[1];
-    const double step = (fine - value[0]) / expm1(order * log(ratio)); /* e/(r^p - 1) */
+    const double ratio = v[0].h / v[1].h, fine = v[1].value;
+    const double step = (fine - v[0].value) / expm1(order * log(ratio)); /* e/(r^p - 1) */
     const double limit = fine + step, uncertainty = safety_observed * fabs(step);
     return (struct br_gci_pair){
         .ratio = ratio,
-        .difference = fabs(fine - value[0]),
+        .difference = fabs(fine - v[0].value),
         .limit = limit,
         .uncertainty = uncertainty,
-        .relative = relative_to(fine - value[0], fine),
+        .relative = relative_to(fine - v[0].value, fine),
         .relative_extrapolated = relative_to(step, limit),
         .index = relative_to(uncertainty, fine),
     };
 }
 
-/* Sets sequence and order from the three grids h[0] to h[2]. */
-static void check_triplet(const double *h, const double *value, struct br_gci *gci)
+/* Sets sequence and order from three grids. */
+static void check_triplet(const struct br_line_value *v, struct br_gci *gci)
 {
-    const double e21 = value[1] - value[2], e32 = value[0] - value[1];
-    const double zero = round_off_of(value, 3);
+    const double e21 = v[1].value - v[2].value, e32 = v[0].value - v[1].value;
+    const double zero = br_round_off_of(v, 3);
     if (fabs(e21) <= zero || fabs(e32) <= zero) {
         const bool both = fabs(e21) <= zero && fabs(e32) <= zero;
         gci->sequence = both ? BR_SEQUENCE_CONSTANT : BR_SEQUENCE_UNKNOWN;
         return;
     }
     const struct triplet t = {
-        .ln21 = log(h[1] / h[2]),
-        .ln32 = log(h[0] / h[1]),
+        .ln21 = log(v[1].h / v[2].h),
+        .ln32 = log(v[0].h / v[1].h),
         .ln_growth = log(fabs(e32)) - log(fabs(e21)),
         .s = (e32 > 0) == (e21 > 0) ? 1 : -1,
     };
@@ -143,14 +142,12 @@ double br_gci_limited(const struct br_gci *gci, double formal)
                                      : NAN;
 }
 
-void br_gci(const double *h, const double *value, size_t count, struct br_gci *gci)
+void br_gci(const struct br_line_value v[3], struct br_gci *gci)
 {
     *gci = (struct br_gci){.order = NAN};
-    h += count - 3;
-    value += count - 3;
-    check_triplet(h, value, gci);
+    check_triplet(v, gci);
     const double order = convergent(gci->sequence) ? gci->order : NAN;
-    gci->fine = pair_of(h + 1, value + 1, order);
-    gci->coarse = pair_of(h, value, order);
+    gci->fine = pair_of(v + 1, order);
+    gci->coarse = pair_of(v, order);
     gci->asymptotic = gci->coarse.index / (pow(gci->fine.ratio, order) * gci->fine.index);
 }

@@ -4,16 +4,22 @@
  * of Uncertainty Due to Discretization in CFD Applications", J. Fluids Eng. 130, 078001 (2008), and
  * of ASME V&V 20-2009. The limit with its interval is that of limits.h.
  *
- * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine,
- * each smaller than the one before, with finite ratios, and value[count] is the quantity on these
- * grids, below DBL_MAX/4. The papers count from the finest grid: their h_1 is h[count - 1]. NaN in
- * a result: not known. */
+ * Values stand from coarse to fine: h is a mesh size or a time step > 0 in any unit, smaller than
+ * the one before, with a finite ratio; the quantity there is below DBL_MAX/4. The papers count from
+ * the finest grid: their h_1 is the last one. NaN in a result: not known. */
 #ifndef BR_ORDERS_LIMITS_GRID_CONVERGENCE_H
 #define BR_ORDERS_LIMITS_GRID_CONVERGENCE_H
 
 #include "base/status.h"
 #include "orders/axis.h"
 #include "orders/estimate.h"
+
+/* A value of a line. */
+struct br_line_value {
+    double h, value;
+    double half;     /* half width of its 95 % interval, where it is a mean; 0: it is none */
+    double rounding; /* half a unit of its last digit, where it was printed; 0: it was not */
+};
 
 /* X(name, text): how a sequence of values behaves. */
 #define BR_SEQUENCE_LIST(X)                                           \
@@ -66,9 +72,12 @@ struct br_gci {
                           convergence it is always |phi_1/phi_2|, so it shows little. */
 };
 
-/* From the three finest grids; count >= 3. An order far above the formal one makes the uncertainty
+/* From three grids. An order far above the formal one makes the uncertainty
  * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): compare the orders. */
-void br_gci(const double *h, const double *value, size_t count, struct br_gci *gci);
+void br_gci(const struct br_line_value value[3], struct br_gci *gci);
+
+/* The round-off that the difference of two values may have. */
+double br_round_off_of(const struct br_line_value *value, size_t count);
 
 /* The index of the fine grid with the limits of Oberkampf and Roy, Verification and Validation in
  * Scientific Computing (2010), chapter 8: within a tenth of the formal order, that order with a

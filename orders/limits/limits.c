@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "orders/limits/limits.h"
 
-#include <float.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 
@@ -42,25 +41,10 @@ static void leave_scatter(struct br_gci *gci, const struct br_line_value *v)
 
 /* ---- a line ---- */
 
-static void find_gci(const struct br_line_value *v, struct br_gci *gci)
-{
-    br_gci((const double[]){v[0].h, v[1].h, v[2].h},
-           (const double[]){v[0].value, v[1].value, v[2].value}, 3, gci);
-}
-
-/* The round-off that the difference of two values may have. */
-static double round_off_of(const struct br_line_value *v, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, fabs(v[i].value));
-    return 64 * DBL_EPSILON * most;
-}
-
 static bool are_constant(const struct br_line_value *v, size_t count)
 {
     for (size_t i = 0; i + 1 < count; i++)
-        if (!(fabs(v[i].value - v[i + 1].value) <= round_off_of(v, count)))
+        if (!(fabs(v[i].value - v[i + 1].value) <= br_round_off_of(v, count)))
             return false;
     return true;
 }
@@ -134,15 +118,15 @@ static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
 static enum br_status find_order(const struct br_line_value *v, size_t count,
                                  struct br_line_order *found, struct br_error *err)
 {
-    struct br_order_point *point = br_allocate(count - 1, sizeof *point);
+    struct br_point *point = br_allocate(count - 1, sizeof *point);
     if (!point)
         return br_no_memory(err, "the limit");
     for (size_t i = 0; i + 1 < count; i++)
-        point[i] = (struct br_order_point){.z = v[i].h,
-                                           .z_against = v[i + 1].h,
-                                           .error = fabs(v[i].value - v[i + 1].value),
-                                           .deviation = hypot(v[i].half, v[i + 1].half) / normal95,
-                                           .rounding = hypot(v[i].rounding, v[i + 1].rounding)};
+        point[i] = (struct br_point){.z = v[i].h,
+                                     .z_against = v[i + 1].h,
+                                     .error = fabs(v[i].value - v[i + 1].value),
+                                     .deviation = hypot(v[i].half, v[i + 1].half) / normal95,
+                                     .rounding = hypot(v[i].rounding, v[i + 1].rounding)};
     const enum br_status status = br_line_order_find(point, count - 1, found, err);
     free(point);
     return status;
@@ -169,7 +153,7 @@ enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
     limit->sequence = sequence_of(&found, turns, sure);
     if (count == 3 && limit->sequence == BR_SEQUENCE_UNKNOWN) {
         struct br_gci gci;
-        find_gci(v, &gci);
+        br_gci(v, &gci);
         limit->sequence = gci.sequence == BR_SEQUENCE_LOGARITHM ? gci.sequence : limit->sequence;
     }
     limit->order = found.order.value;
@@ -195,7 +179,7 @@ enum br_status br_limits_find(const struct br_line_value *v, size_t count, struc
     if (!limits->triple)
         return br_no_memory(err, "the limits");
     for (size_t i = 0; i + 2 < count; i++) {
-        find_gci(v + i, &limits->triple[i]);
+        br_gci(v + i, &limits->triple[i]);
         leave_scatter(&limits->triple[i], v + i);
         limits->gci = limits->triple[i];
         limits->triples = i + 1;

@@ -9,13 +9,6 @@
 
 #include "orders/limits/grid_convergence.h"
 
-/* A value of a line. */
-struct br_line_value {
-    double h, value;
-    double half;     /* half width of its 95 % interval, where it is a mean; 0: it is none */
-    double rounding; /* half a unit of its last digit, where it was printed; 0: it was not */
-};
-
 struct br_grid_limit {
     struct br_estimate value; /* NaN: there is none, or too little is known */
     double order;             /* p */

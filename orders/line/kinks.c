@@ -3,18 +3,6 @@
 
 #include "orders/line/mixture.h"
 
-/* The rows of an exact power, with a second correction of those before `middle`, or behind it. */
-static void bend_at(const struct br_rows *r, size_t middle, bool behind)
-{
-    for (size_t i = 0; i < r->count; i++) {
-        const double from = r->x[i] - r->x[middle];
-        r->bent[i] = r->y[i];
-        r->weight[i] = r->given[i];
-        r->log_density[i] = r->log_given[i];
-        r->curve[i] = behind ? fmin(0, from) : fmax(0, from);
-    }
-}
-
 /* Whether the order of two powers may be that of the coarse rows: where these are more, or the fine
  * ones few. */
 static bool coarse_may_count(size_t coarse_rows, size_t fine_rows)
@@ -30,7 +18,9 @@ static void add_kink(struct br_mixture *all, const struct br_rows *r, size_t mid
     enum { SIDE = 2 };
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double share = behind ? br_priors.kink_coarse : 1 - br_priors.kink_coarse;
-    bend_at(r, middle, behind);
+    br_rows_plain(r); /* with a correction of those before `middle`, or behind it */
+    for (size_t i = 0; i < n; i++)
+        r->curve[i] = behind ? fmin(0, r->x[i] - r->x[middle]) : fmax(0, r->x[i] - r->x[middle]);
     for (size_t first = 0; first + SIDE <= middle; first += stride) {
         struct br_sums s = {.start = r->y[n - 1],
                             .order = r->order,
@@ -97,9 +87,7 @@ static void add_break(struct br_mixture *all, const struct br_rows *r, size_t mi
     static const double falls = 0.4; /* a smaller order is a plateau that scatters */
     static const double differs = 0.1, inside = 1e-3; /* of the gap: others meet at a row */
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
-    bend_at(r, middle, false);
-    for (size_t i = 0; i < n; i++)
-        r->curve[i] = 0;
+    br_rows_plain(r);
     for (size_t first = 0; first + SIDE <= middle + 1 && middle + SIDE < n; first += stride) {
         const struct side coarse_side = side_of(r, first, middle),
                           fine_side = side_of(r, middle + 1, n - 1);

@@ -13,6 +13,11 @@ const char *br_law_text(enum br_law law)
     return texts[law];
 }
 
+bool br_law_is_floor(enum br_law law)
+{
+    return law == BR_LAW_FLOOR || law == BR_LAW_FLOOR_SQUARES || law == BR_LAW_OFFSET;
+}
+
 BR_PRIOR_CONST struct br_priors br_priors = {
 #define X(name, value, off, why) .name = value,
     BR_PRIOR_LIST(X)

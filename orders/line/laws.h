@@ -39,6 +39,7 @@ enum br_law {
 #endif
 
 const char *br_law_text(enum br_law law);
+bool br_law_is_floor(enum br_law law); /* or an offset */
 
 /* A law with its s, and the parameter: even in its logarithm from low to high. It is a z^s at the
  * finest size; of a logarithm a - log z there; of a floor F over the finest error. */

@@ -32,13 +32,18 @@ static double regress_all(const struct br_rows *r, double p)
     return (xy - x * y / n) / (xx - x * x / n);
 }
 
-static bool usable(const struct br_order_point *p)
+static bool has_error(const struct br_point *p)
 {
     return p->error > 0 && isfinite(p->error);
 }
 
+static bool usable(const struct br_point *p)
+{
+    return !p->flag && has_error(p);
+}
+
 /* The standard deviation of an error over the error. */
-static double scatter(const struct br_order_point *p)
+static double scatter(const struct br_point *p)
 {
     return p->deviation / p->error;
 }
@@ -54,7 +59,7 @@ static void bring_to_line(struct br_rows *r, double order)
     }
 }
 
-static void take_rows(struct br_rows *r, const struct br_order_point *point, size_t count)
+static void take_rows(struct br_rows *r, const struct br_point *point, size_t count)
 {
     double finest = NAN, least = INFINITY;
     for (size_t i = 0; i < count; i++)
@@ -66,7 +71,7 @@ static void take_rows(struct br_rows *r, const struct br_order_point *point, siz
         }
     const bool weighted = least > 0 && isfinite(least);
     for (size_t i = 0; i < count; i++) {
-        const struct br_order_point *p = &point[i];
+        const struct br_point *p = &point[i];
         if (!usable(p))
             continue;
         r->index[r->count] = i;
@@ -161,14 +166,9 @@ static void add_exponentials(struct br_mixture *all, const struct br_rows *r)
     for (size_t k = 0; k < sizeof powers / sizeof *powers && shows; k++) {
         struct br_rows e = *r;
         e.x = r->other;
-        for (size_t i = 0; i < n; i++) {
+        br_rows_plain(r);
+        for (size_t i = 0; i < n; i++)
             e.x[i] = -pow(r->z[middle] / r->z[i], powers[k]) / powers[k];
-            e.bent[i] = r->y[i];
-            e.weight[i] = r->given[i];
-            e.log_density[i] = r->log_given[i];
-            e.change[i] = 0;
-            e.curve[i] = 0;
-        }
         e.order = (e.y[0] - e.y[n - 1]) / (e.x[0] - e.x[n - 1]);
         const double far = all->far;
         all->far = -pow(r->z[middle] / exp(far), powers[k]) / powers[k];
@@ -202,11 +202,6 @@ struct search {
     double top[LEVELS]; /* the largest weight of all, by the size of parts */
 };
 
-static bool is_floor(const struct br_family *f)
-{
-    return f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
-}
-
 static double slope_at(const struct br_rows *r, const struct br_family *f, double parameter)
 {
     double least = INFINITY, most = 0;
@@ -235,7 +230,7 @@ static void make_cells(const struct br_rows *r, const struct br_family *f, struc
 static void add_member(struct br_mixture *all, const struct br_rows *r, const struct br_family *f,
                        const struct cell *c)
 {
-    const bool stays = is_floor(f);
+    const bool stays = br_law_is_floor(f->law);
     const double parameter = exp(c->from + c->width / 2), share = c->width / log(f->high / f->low);
     const bool of_values = f->law == BR_LAW_LOGARITHM && f->s < -1;
     if ((all->few && (stays || parameter < br_priors.few_next)) || /* two differences show none */
@@ -306,12 +301,6 @@ static void descend(struct search *s, const struct br_family *f, const struct ce
     }
 }
 
-static struct br_windows all_windows(const struct br_mixture *all, const struct br_rows *r)
-{
-    return (struct br_windows){
-        .first_most = r->count - (all->few ? 2 : 3), .last_most = r->count - 1, .outlier = true};
-}
-
 static void add_laws(struct br_mixture *all, const struct br_rows *r, double log_prior)
 {
     static const struct br_family power = {.law = BR_LAW_POWER};
@@ -326,7 +315,8 @@ static void add_laws(struct br_mixture *all, const struct br_rows *r, double log
                                  .log_gamma = all->log_gamma}};
     all->prior = log_prior;
     all->keeps = kept;
-    all->within = s.rough.within = all_windows(all, r);
+    all->within = s.rough.within = (struct br_windows){
+        .first_most = r->count - (all->few ? 2 : 3), .last_most = r->count - 1, .outlier = true};
     all->within_cell = 0;
     set_family(r, &power);
     add_law(all, r, &power, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
@@ -508,7 +498,7 @@ static void explain(struct br_mixture *all, struct br_rows *r)
     }
 }
 
-enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
+enum br_status br_line_order_find(const struct br_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
     enum { ARRAYS = 18 };
@@ -534,7 +524,7 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, count);
-        const struct br_order_point *finest = r.count ? &point[index[r.count - 1]] : NULL;
+        const struct br_point *finest = r.count ? &point[index[r.count - 1]] : NULL;
         all.far =
             finest && finest->z_against > 0 ? log(finest->z_against / finest->z) : (double)NAN;
         all.few = r.count == 2 && isfinite(all.far);
@@ -574,11 +564,11 @@ struct br_estimate br_exponential_factor(const struct br_line_order *found)
 /* A level below this share of the coarsest error that counts is taken for round-off. */
 static const double deep = 1e-6;
 
-enum br_flag br_line_order_flag(const struct br_line_order *found,
-                                const struct br_order_point *point, size_t i)
+enum br_flag br_line_order_flag(const struct br_line_order *found, const struct br_point *point,
+                                size_t i)
 {
     const bool floors = found->law[BR_LAW_FLOOR] + found->law[BR_LAW_FLOOR_SQUARES] > 0.5;
-    const struct br_order_point *last = &point[found->last];
+    const struct br_point *last = &point[found->last];
     if (i < found->first)
         return BR_FLAG_COARSE;
     if (i == found->outlier)
@@ -591,12 +581,12 @@ enum br_flag br_line_order_flag(const struct br_line_order *found,
     return point[i].error <= deep * point[found->first].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
 }
 
-double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine)
+double br_point_rate(const struct br_point *coarse, const struct br_point *fine)
 {
     static const double steepest = 60;
     const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
     double low = -steepest, high = steepest, slope;
-    if (!usable(coarse) || !usable(fine))
+    if (!has_error(coarse) || !has_error(fine))
         return NAN;
     if (coarse->z_against == 0 && fine->z_against == 0)
         return falls / ratio;
@@ -613,13 +603,13 @@ double br_order_rate(const struct br_order_point *coarse, const struct br_order_
 
 /* The logarithm of a point's share of an error of order p. Its constant factor is not that of the
  * error itself, and |z^p - z_against^p| also has a share of an order of zero or less. */
-static double log_share(const struct br_order_point *point, double p)
+static double log_share(const struct br_point *point, double p)
 {
     double slope;
     return p * log(point->z) + br_row_loss(point->z_against / point->z, p, &slope);
 }
 
-static double line_at(const struct br_order_point *point, size_t count, size_t i, double p)
+static double line_at(const struct br_point *point, size_t count, size_t i, double p)
 {
     double sum = 0, counts = 0;
     for (size_t j = 0; j < count; j++)
@@ -630,7 +620,7 @@ static double line_at(const struct br_order_point *point, size_t count, size_t i
     return exp(log_share(&point[i], p) + sum / counts);
 }
 
-struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
+struct br_estimate br_line_fit(const struct br_point *point, size_t count, size_t i,
                                const struct br_estimate *order)
 {
     const double fit = line_at(point, count, i, order->value),

@@ -17,11 +17,21 @@
 
 /* One error of a line that is refined in one quantity z (h/L or k/T). An error against a finer
  * solution is C (z^p - z_against^p). */
-struct br_order_point {
+struct br_point {
     double z, z_against; /* z_against < z: of the reference; 0: the solution itself */
     double error;        /* in any unit, in which are also: */
     double deviation;    /* its standard deviation, where it is a mean; 0: it is none */
     double rounding;     /* half a unit of its last digit, where it was printed; 0: it was not */
+    enum br_flag flag;   /* why it is left out */
+    /* Of a case (case.h): */
+    struct br_resolution at, against; /* against: zeros for the continuous problem */
+    double constant;                  /* C of e = C (z^order - z_against^order) */
+    char label[64];                   /* "n = 40", for messages */
+    bool used;                        /* for the order: it is not left out */
+    bool lost;              /* the search for the order left it out, and nothing before it */
+    char failure[256];      /* of the march; "": it went well */
+    struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
+                               the order is that of a joint fit, which is no line */
 };
 
 struct br_line_order {
@@ -39,30 +49,30 @@ struct br_line_order {
     double floor;               /* F of the most probable law, in the unit of the errors; else 0 */
 };
 
-/* The order of point[count], from coarse to fine; rows whose error is not above 0, or not finite,
- * are left aside. An order of zero or less means that the errors stay or grow. Not known with less
- * than three rows. Errors weigh by their deviations, if all have one above 0. No law describes a
- * line better than the digits of its errors do, and the interval holds what they leave open. Fails
- * with BR_NO_MEMORY. */
-enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
+/* The order of point[count], from coarse to fine; rows that are left out, or whose error is not
+ * above 0 or not finite, are left aside. An order of zero or less means that the errors stay or
+ * grow. Not known with less than three rows. Errors weigh by their deviations, if all have one
+ * above 0. No law describes a line better than the digits of its errors do, and the interval holds
+ * what they leave open. Fails with BR_NO_MEMORY. */
+enum br_status br_line_order_find(const struct br_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err);
 
 /* What one more of n = 1/z divides the errors by: exp(b); NaN: they do not fall as exp(-b n). */
 struct br_estimate br_exponential_factor(const struct br_line_order *found);
 
 /* Why the order of a line does not rest on point[i]; BR_FLAG_NONE: it does. */
-enum br_flag br_line_order_flag(const struct br_line_order *found,
-                                const struct br_order_point *point, size_t i);
+enum br_flag br_line_order_flag(const struct br_line_order *found, const struct br_point *point,
+                                size_t i);
 
 /* The order that two errors show, the coarser one first; NaN: one of them is not above 0, or no
  * order from -60 to 60 makes such differences. */
-double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
+double br_point_rate(const struct br_point *coarse, const struct br_point *fine);
 
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean
  * of their logarithms, at point[i]; and its band, by the lines of the order's low and high end,
  * which holds the line itself. Errors that are not above 0, or not finite, are left aside; NaN:
  * there are no others, or no order, or no interval of it. */
-struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
+struct br_estimate br_line_fit(const struct br_point *point, size_t count, size_t i,
                                const struct br_estimate *order);
 
 #endif

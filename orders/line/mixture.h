@@ -100,6 +100,9 @@ struct br_sums {
     size_t rows;
 };
 
+/* Sets the rows of a law without a correction. */
+void br_rows_plain(const struct br_rows *r);
+
 /* Adds a row to a window, or (sign < 0) takes it out again. */
 void br_window_row(struct br_sums *s, const struct br_rows *r, size_t i, double sign);
 

@@ -15,6 +15,15 @@
 
 #include "orders/line/mixture.h"
 
+void br_rows_plain(const struct br_rows *r)
+{
+    memcpy(r->bent, r->y, r->count * sizeof *r->bent);
+    memcpy(r->weight, r->given, r->count * sizeof *r->weight);
+    memcpy(r->log_density, r->log_given, r->count * sizeof *r->log_density);
+    memset(r->change, 0, r->count * sizeof *r->change);
+    memset(r->curve, 0, r->count * sizeof *r->curve);
+}
+
 void br_window_row(struct br_sums *s, const struct br_rows *r, size_t i, double sign)
 {
     const double w = sign * r->weight[i], x = r->x[i], y = r->bent[i] - s->start - s->order * x;
@@ -29,13 +38,6 @@ void br_window_row(struct br_sums *s, const struct br_rows *r, size_t i, double 
     }
     s->log_density += sign * r->log_density[i];
     s->rows = sign > 0 ? s->rows + 1 : s->rows - 1;
-}
-
-/* What a known variance adds to the scale of Student's distribution, so that it widens the 95 %
- * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
-static double of_known(double freedom)
-{
-    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }
 
 /* Whether the law may have this order. Two powers: the order is of the fine rows or, where these
@@ -157,7 +159,7 @@ void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct
     p.mean = s->order + xy / xx;
     p.misfit = all->few ? 0 : sqrt(squares / freedom);
     p.freedom = all->few ? FEW : freedom;
-    p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
+    p.scale = hypot(sqrt(variance / xx), br_scale_of_known(p.freedom) * sqrt(rounded) / xx);
     p.weight += all->few ? log_prior_of_order(p.mean) : -log1p(p.misfit / br_priors.usual_scatter);
     if (isfinite(all->far)) {
         find_left(all->far, s, variance, xx, xy / xx, &p);

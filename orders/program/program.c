@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
+#include <fcntl.h>
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -26,6 +27,68 @@ struct job {
     struct times start; /* of a trade: of a process that does nothing */
 };
 
+/* ---- the files of a command: its program, and those that its words name, also behind a "=". What
+ * these read or start is not known. ---- */
+
+enum { LARGEST = 1 << 26 }; /* bytes; of a larger one the contents are not read */
+
+/* The i-th regular file; "": none; NULL: there are no more. */
+static const char *named(const struct br_command_words *c, size_t i, struct stat *info)
+{
+    const char *path = i ? c->word[(i - 1) / 2] : c->program;
+    if (path && i && i % 2 == 0)
+        path = strchr(path, '=') ? strchr(path, '=') + 1 : "";
+    /* what is relative is no file where the program runs */
+    const bool is = path && *path == '/' && stat(path, info) == 0 && S_ISREG(info->st_mode);
+    return path && !is ? "" : path;
+}
+
+static bool sum_of(const char *path, char text[BR_SHA256_TEXT])
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool read = file >= 0 && br_sha256_file(file, text);
+    if (file >= 0)
+        close(file);
+    return read;
+}
+
+/* States the words, and the bytes of the files, of large ones their size and time. */
+static enum br_status state_files(struct br_statement *s, const struct br_command_words *c,
+                                  struct br_error *err)
+{
+    struct stat info;
+    char text[BR_SHA256_TEXT];
+    const char *path;
+    br_state(s, "program", "%s", c->program);
+    for (char **word = c->word; *word; word++)
+        br_state(s, "word", "%s", *word);
+    for (size_t i = 0; (path = named(c, i, &info)); i++)
+        if (*path && i && info.st_size > LARGEST)
+            br_state(s, "file", "%lld bytes of %lld.%09ld", (long long)info.st_size,
+                     (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+        else if (*path && !sum_of(path, text))
+            return br_fail(err, BR_IO, "%.800s cannot be read: %s", path, strerror(errno));
+        else if (*path)
+            br_state(s, "file", "%s", text);
+    return BR_OK;
+}
+
+/* Another number where one of the files was replaced or written. */
+static uint64_t stamp_of(const struct br_command_words *c)
+{
+    struct stat info = {0};
+    uint64_t stamp = 14695981039346656037u; /* FNV-1a, by numbers */
+    const char *path;
+    for (size_t i = 0; (path = named(c, i, &info)); i++) {
+        const uint64_t part[] = {(uint64_t)info.st_dev, (uint64_t)info.st_ino,
+                                 (uint64_t)info.st_size, (uint64_t)info.st_mtim.tv_sec,
+                                 (uint64_t)info.st_mtim.tv_nsec};
+        for (size_t j = 0; j < sizeof part / sizeof *part; j++)
+            stamp = (stamp ^ (*path ? part[j] : 0)) * 1099511628211u;
+    }
+    return stamp;
+}
+
 /* ---- finished cells ---- */
 
 /* *text (out, owned): all that a cell's numbers follow from: the command, with the files that it
@@ -35,8 +98,10 @@ static enum br_status text_of(const struct job *j, const struct br_command_words
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_statement s;
-    br_cache_begin(j->cache, "run", &s);
-    const enum br_status status = br_command_state(&s, cell, err);
+    br_statement_begin(&s);
+    br_state(&s, "beamrate-cache", "%s", "4");
+    br_state(&s, "work", "%s", "run");
+    const enum br_status status = state_files(&s, cell, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
         br_state(&s, "name", "%s", reading->name);
@@ -79,19 +144,13 @@ enum { LEAST_RUNS = 6, MOST_RUNS = 30 };                       /* six hold the m
 static const double longest = 10;                              /* all runs of a cell, s */
 static const double known = 0.05, scatter = 0.1, least = 1e-4; /* s: less is not known */
 
-static int by_time(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /* The median of times, which it sorts; *half (out): of its 95 % interval, by ranks. Of a few runs
  * the clock's usual scatter at least. */
 static double median(double *time, size_t runs, double *half)
 {
     const double count = (double)runs, rank = floor((count - 1.96 * sqrt(count)) / 2);
     const size_t low = rank > 1 ? (size_t)rank - 1 : 0;
-    qsort(time, runs, sizeof *time, by_time);
+    qsort(time, runs, sizeof *time, br_by_number);
     const double middle = (time[(runs - 1) / 2] + time[runs / 2]) / 2;
     *half = fmax((time[runs - 1 - low] - time[low]) / 2, least);
     if (runs < LEAST_RUNS)
@@ -175,7 +234,7 @@ static enum br_status get_row(const struct job *j, const struct br_command_words
     if (!of.row->cached && !br_run_command(j->program, words, of.row, err) &&
         is_timed(j->program) && !of.row->failure)
         time_row(j, words, of.row, err);
-    if ((!err->status || err->status == BR_BAD_INPUT) && br_command_stamp(words) != j->stamp[i]) {
+    if ((!err->status || err->status == BR_BAD_INPUT) && stamp_of(words) != j->stamp[i]) {
         of.row->cached = false;
         return br_run_failed(j->program, of.row, err,
                              "%s, or a file that the command names, changed during the study",
@@ -213,8 +272,9 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-enum br_status br_program_rows(const struct br_orders_request *p, struct br_numbers *numbers,
-                               struct br_error *err)
+/* Makes a row for each run of the list or grid, from coarse to fine, with its resolution. */
+static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
+                                struct br_error *err)
 {
     const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
@@ -372,7 +432,7 @@ static enum br_status check_commands(struct job *j, struct br_error *err)
         struct br_command_words words = {.word = NULL};
         status = br_command_split(j->program, &j->numbers->row[i], &words, err);
         if (!status)
-            j->stamp[i] = br_command_stamp(&words);
+            j->stamp[i] = stamp_of(&words);
         br_command_clear(&words);
     }
     return status;
@@ -400,9 +460,8 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
     if (program->readings == 0)
         return br_fail(err, BR_BAD_INPUT,
                        "found nothing to read, expected the name of a number and where it is");
-    bool failed = br_program_rows(program, numbers, err) ||
-                  make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                  (program->cache && open_cache(&j, err));
+    bool failed = make_rows(program, numbers, err) || make_quantities(program, numbers, err) ||
+                  check_commands(&j, err) || (program->cache && open_cache(&j, err));
     const struct br_each each = {.count = numbers->rows,
                                  .threads = program->cost ? 1 : program->jobs,
                                  .observer = program->observer,

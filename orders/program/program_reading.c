@@ -148,8 +148,8 @@ static enum br_status pause_search(struct search *s)
 {
     char buffer[SHOWN];
     const double now = br_seconds();
-    if (br_observer_stops(s->request->observer))
-        return br_fail(s->err, BR_INTERRUPTED, "interrupted");
+    if (br_observer_check(s->request->observer, s->err))
+        return s->err->status;
     if (now - s->began > s->request->seconds)
         return refuse(s, "the search for '%s' did not end within %g s",
                       shown(buffer, s->reading->what), s->request->seconds);

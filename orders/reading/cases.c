@@ -188,7 +188,7 @@ static const char *name_group(struct br_roles *r, size_t row)
             br_append(text, sizeof text, "%s%s%s%s", *text ? ", " : "",
                       r->column[i].name ? r->column[i].name : "", r->column[i].name ? " = " : "",
                       br_role_text(r, row, i));
-    return br_roles_copy(r, text);
+    return br_store_copy(&r->store, text);
 }
 
 enum br_status br_roles_find_cases(struct br_roles *r, struct br_error *err)

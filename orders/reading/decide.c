@@ -275,7 +275,7 @@ static size_t first_value(const struct contest *t, const struct br_candidate *c)
 /* The order of the three finest values of the first line; NaN: they have none. */
 static double order_of_values(const struct contest *t, const struct br_candidate *c, size_t value)
 {
-    double h[3], v[3];
+    struct br_line_value v[3];
     size_t count = 0;
     struct br_gci found;
     for (size_t i = 0; t->sorted[i] != BR_NO_ROW; i++) {
@@ -283,19 +283,15 @@ static double order_of_values(const struct contest *t, const struct br_candidate
         const double number = t->roles->column[value].number[row];
         if (t->roles->line[row] != t->roles->line[t->sorted[0]] || isnan(number))
             continue;
-        if (count == 3) {
-            memmove(h, h + 1, 2 * sizeof *h);
-            memmove(v, v + 1, 2 * sizeof *v);
-            count = 2;
-        }
-        h[count] = exp(c->log_z[row]);
-        v[count++] = number;
-        if (count > 1 && !(h[count - 1] < h[count - 2]))
+        if (count == 3)
+            memmove(v, v + 1, --count * sizeof *v);
+        v[count++] = (struct br_line_value){.h = exp(c->log_z[row]), .value = number};
+        if (count > 1 && !(v[count - 1].h < v[count - 2].h))
             return NAN;
     }
     if (count < 3)
         return NAN;
-    br_gci(h, v, 3, &found);
+    br_gci(v, &found);
     return found.order;
 }
 

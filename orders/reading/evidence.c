@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What numbers say for and against a reading. Each evidence has one row in a table. */
+/* What numbers say for and against a reading, in log odds. Each evidence has one row in a table. */
 #include <math.h>
 #include <string.h>
 
@@ -59,11 +59,6 @@ static bool may_have_errors(const struct view *v, size_t i)
            c->kind != BR_KIND_LOGARITHM;
 }
 
-static double of_digit(const struct br_role_column *c, size_t row)
-{
-    return fabs(c->rounding[row] * c->number[row]);
-}
-
 struct residual {
     size_t compared;
     double worst; /* that is beyond the digits */
@@ -93,7 +88,8 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         if (isnan(rate->number[row]) || !isfinite(observed))
             continue;
         const double off = fabs(observed - (sign < 0 ? -1 : 1) * rate->number[row]);
-        const double beyond = off - fmin(most, fmax(least, of_digit(rate, row)));
+        const double beyond =
+            off - fmin(most, fmax(least, fabs(rate->rounding[row] * rate->number[row])));
         if (beyond > coarse && beyond <= digits / p.ratio) /* too few digits to tell */
             continue;
         found.worst = fmax(found.worst, beyond - fmin(coarse, digits / p.ratio));
@@ -148,21 +144,6 @@ static void find_rates(struct view *v)
     }
 }
 
-static double reproduces(const struct view *v)
-{
-    return v->rates.columns && v->rates.all ? v->rates.compared > 1 ? 1 : 0.5 : 0;
-}
-
-static double is_exact(const struct view *v)
-{
-    return v->rates.columns && v->rates.exact && v->rates.compared > 1;
-}
-
-static double contradicts(const struct view *v)
-{
-    return v->rates.columns && !v->rates.all && !v->rates.near;
-}
-
 /* ---- growth ---- */
 
 /* Whether a number and `more` grow by this factor from each mesh to the next: within 2 %, or
@@ -190,33 +171,14 @@ static bool grows_in(const struct view *v, double dimension)
                               grows_by(v, 0, pow(1.5, dimension), false)));
 }
 
-/* Whether the heading is a usual name of any size. */
-static bool has_usual_name(const struct view *v)
-{
-    return own(v)->by_hand || own(v)->named > BR_ANY_NAME;
-}
-
 static double grows(const struct view *v)
 {
     const struct br_resolution_column *c = v->candidate->size.states;
-    const double odds = has_usual_name(v) ? 1 : 0.25; /* anything may grow so */
+    /* without a usual name of a size it may be anything */
+    const double odds = own(v)->by_hand || own(v)->named > BR_ANY_NAME ? 1 : 0.25;
     if (c->is_volume)
         return odds * grows_in(v, v->candidate->size.dimension);
     return odds * (c->more && grows_by(v, c->more, 2, false));
-}
-
-static double is_two_dimensional(const struct view *v)
-{
-    return has_name(v, "dofs") && v->candidate->size.dimension == 2 && !grows_in(v, 1) &&
-           !grows_in(v, 2) && !grows_in(v, 3);
-}
-
-/* Whether a line has more cells than one is cut into. */
-static double is_too_long(const struct view *v)
-{
-    const double most = 1e5;
-    return v->candidate->size.states->is_volume && v->candidate->size.dimension == 1 &&
-           !(v->roles->wishes->dimension > 0) && own(v)->most > most;
 }
 
 /* Whether all sizes fall by one factor. */
@@ -230,12 +192,7 @@ static bool falls_by(const struct view *v, double ratio)
     return pairs >= 2;
 }
 
-static double halves(const struct view *v)
-{
-    return falls_by(v, log(2));
-}
-
-static double counts_up(const struct view *v)
+static bool counts_up(const struct view *v)
 {
     struct pair p;
     size_t pairs = 0;
@@ -298,7 +255,7 @@ static bool hardly_changes(const struct br_role_column *c)
 }
 
 /* Whether no error falls with these sizes, and one grows from each to the next. */
-static double grow_all(const struct view *v)
+static bool grow_all(const struct view *v)
 {
     bool grow = false;
     for (size_t i = 0; i < v->roles->columns; i++) {
@@ -315,7 +272,7 @@ static double grow_all(const struct view *v)
     return grow;
 }
 
-static double some_fall(const struct view *v)
+static bool some_fall(const struct view *v)
 {
     bool falls = false;
     for (size_t i = 0; i < v->roles->columns && !falls; i++)
@@ -357,7 +314,7 @@ static bool agrees(const struct view *v, size_t column, const struct br_resoluti
     return high - low <= 0.01;
 }
 
-static double has_a_second(const struct view *v)
+static bool has_a_second(const struct view *v)
 {
     for (size_t i = 0; i < v->roles->columns; i++) {
         const struct br_role_column *c = &v->roles->column[i];
@@ -374,14 +331,14 @@ static double has_a_second(const struct view *v)
                 continue;
             for (int d = 1; d <= (s->is_volume ? 3 : 1); d++)
                 if (agrees(v, i, s, d))
-                    return 1;
+                    return true;
         }
     }
     return 0;
 }
 
 /* Unknowns and cells, beside a column that is called h, n or level. */
-static double is_beside_a_size(const struct view *v)
+static bool is_beside_a_size(const struct view *v)
 {
     for (size_t i = 0; i < v->roles->columns && v->candidate->size.states->is_volume; i++) {
         const struct br_role_column *c = &v->roles->column[i];
@@ -389,142 +346,85 @@ static double is_beside_a_size(const struct view *v)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
                 c->least < c->most && c->numbers == v->roles->rows &&
                 br_odds(c, s) >= BR_USUAL_NAME)
-                return 1;
+                return true;
     }
     return 0;
 }
 
-static double name(const struct view *v)
-{
-    return br_odds(own(v), v->candidate->size.states);
-}
-
-static double by_hand(const struct view *v)
-{
-    return own(v)->stated == v->candidate->size.states;
-}
-
-static double is_no_count(const struct view *v)
-{
-    return !v->candidate->size.states->is_size && !own(v)->is_whole &&
-           !strpbrk(own(v)->name ? own(v)->name : "", "/");
-}
-
 /* ---- the tables ---- */
 
-static const struct {
-    double (*holds)(const struct view *v); /* 0: no, 1: yes */
-    double log_odds;
-    const char *why;
-} of_sizes[] = {
-    {by_hand, 99, "--column says so"},
-    {name, 1, "its heading"},
-    {reproduces, 6, "it gives the rates of the table, within their digits"},
-    {is_exact, 3, "it gives them to the last digit"},
-    {contradicts, -4, "it gives other rates than the table"},
-    {grows, 2, "it grows as a number of this kind does where h halves"},
-    {is_two_dimensional, 1.5, "most meshes with unknowns are 2-D"},
-    {is_too_long, -3, "few meshes are 1-D and have so many cells"},
-    {halves, 0.75, "its sizes halve"},
-    {counts_up, -4, "levels count by one"},
-    {has_a_second, 3, "another column states the same sizes"},
-    {is_beside_a_size, -4, "another column is called h, n or level"},
-    {some_fall, 0.5, "something falls with its sizes"},
-    {grow_all, -3, "all that may be errors grows where its sizes fall"},
-    {is_no_count, -3, "a count is whole"},
-};
-
-void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *c, const size_t *sorted)
+void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candidate,
+                       const size_t *sorted)
 {
-    struct view v = {roles, c, sorted, {0}};
+    static const double few_cells = 1e5; /* of a line */
+    struct view v = {roles, candidate, sorted, {0}};
+    const struct br_role_column *c = own(&v);
+    const struct br_resolution_column *s = candidate->size.states;
+    const double d = candidate->size.dimension;
     find_rates(&v);
-    c->odds = 0;
-    for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++)
-        c->odds += of_sizes[i].log_odds * of_sizes[i].holds(&v);
-    c->agrees_with_rates = reproduces(&v) > 0;
-    c->misses_rates = v.rates.columns && !v.rates.all;
-    c->contradicts_rates = contradicts(&v) > 0;
-    c->wrong_way = grow_all(&v) > 0;
+    const bool rates = v.rates.columns, several = v.rates.compared > 1, grow = grow_all(&v),
+               gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
+               plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
+                       !grows_in(&v, 3),
+               many =
+                   s->is_volume && d == 1 && !(roles->wishes->dimension > 0) && c->most > few_cells,
+               fractions = !s->is_size && !c->is_whole && !strpbrk(c->name ? c->name : "", "/");
+    const struct {
+        double holds; /* 0: no, 1: yes */
+        double log_odds;
+    } evidence[] = {
+        {c->stated == s, 99},                   /* --column says so */
+        {br_odds(c, s), 1},                     /* its heading */
+        {gives ? several ? 1 : 0.5 : 0, 6},     /* the table has its rates, within their digits */
+        {gives && v.rates.exact && several, 3}, /* to the last digit */
+        {contradicts, -4},                      /* the table has other rates */
+        {grows(&v), 2},               /* it grows as a number of this kind does where h halves */
+        {plane, 1.5},                 /* most meshes with unknowns are 2-D */
+        {many, -3},                   /* few meshes are 1-D and have so many cells */
+        {falls_by(&v, log(2)), 0.75}, /* its sizes halve */
+        {counts_up(&v), -4},          /* levels count by one */
+        {has_a_second(&v), 3},        /* another column states the same sizes */
+        {is_beside_a_size(&v), -4},   /* another column is called h, n or level */
+        {some_fall(&v), 0.5},         /* something falls with its sizes */
+        {grow, -3},                   /* all that may be errors grows where its sizes fall */
+        {fractions, -3},              /* a count is whole */
+    };
+    candidate->odds = 0;
+    for (size_t i = 0; i < sizeof evidence / sizeof *evidence; i++)
+        candidate->odds += evidence[i].log_odds * evidence[i].holds;
+    candidate->agrees_with_rates = gives;
+    candidate->misses_rates = rates && !gives;
+    candidate->contradicts_rates = contradicts;
+    candidate->wrong_way = grow;
 }
-
-/* ---- errors, over sizes ---- */
-
-struct error_view {
-    struct view v;
-    size_t column;
-};
-
-static const struct br_role_column *tried(const struct error_view *e)
-{
-    return &e->v.roles->column[e->column];
-}
-
-static bool is_error_by_name(const struct error_view *e)
-{
-    return tried(e)->kind == BR_KIND_ERROR;
-}
-
-static bool is_of_another_kind(const struct error_view *e)
-{
-    return tried(e)->kind != BR_KIND_ERROR && tried(e)->kind != BR_KIND_UNKNOWN &&
-           !(tried(e)->kind == BR_KIND_DEGREE && !tried(e)->is_whole);
-}
-
-static bool falls(const struct error_view *e)
-{
-    return dips(&e->v, e->column);
-}
-
-static bool is_count(const struct error_view *e)
-{
-    return climbs(&e->v, e->column) && tried(e)->is_whole && tried(e)->most > 1;
-}
-
-static bool stays(const struct error_view *e)
-{
-    return hardly_changes(tried(e));
-}
-
-/* The error of a coefficient falls further. */
-static bool has_a_limit(const struct error_view *e)
-{
-    const double most = 20;
-    const char *name = tried(e)->name;
-    return name && br_is_coefficient(name) && tried(e)->most < most * tried(e)->least;
-}
-
-static bool has_a_sign(const struct error_view *e)
-{
-    return tried(e)->least < 0 && !is_error_by_name(e);
-}
-
-static bool has_words(const struct error_view *e)
-{
-    return tried(e)->numbers <= tried(e)->words;
-}
-
-static const struct {
-    bool (*holds)(const struct error_view *e);
-    double log_odds;
-    const char *why;
-} of_errors[] = {
-    {is_error_by_name, 3.5, "its heading"},
-    {is_of_another_kind, -5, "its heading is of a rate, a cost, a deviation or a degree"},
-    {falls, 1.5, "it falls with the sizes"},
-    {is_count, -4, "it counts"},
-    {stays, -2.5, "it hardly changes"},
-    {has_a_limit, -4, "it is a coefficient, and does not fall far"},
-    {has_a_sign, -9, "it has both signs"},
-    {has_words, -99, "it has words"},
-};
 
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
                              const size_t *sorted, size_t column)
 {
-    struct error_view e = {{roles, candidate, sorted, {0}}, column};
+    static const double falls_further = 20; /* the error of a coefficient does */
+    const struct view v = {roles, candidate, sorted, {0}};
+    const struct br_role_column *c = &roles->column[column];
+    const bool named = c->kind == BR_KIND_ERROR,
+               of_another_kind = !named && c->kind != BR_KIND_UNKNOWN &&
+                                 !(c->kind == BR_KIND_DEGREE && !c->is_whole),
+               has_a_limit =
+                   c->name && br_is_coefficient(c->name) && c->most < falls_further * c->least;
+    const struct {
+        bool holds;
+        double log_odds;
+    } evidence[] = {
+        {named, 3.5},            /* its heading */
+        {of_another_kind, -5},   /* its heading is of a rate, a cost, a deviation or a degree */
+        {dips(&v, column), 1.5}, /* it falls with the sizes */
+        {climbs(&v, column) && c->is_whole && c->most > 1, -4}, /* it counts */
+        {hardly_changes(c), -2.5},                              /* it hardly changes */
+        {has_a_limit, -4},             /* it is a coefficient, and does not fall far */
+        {c->least < 0 && !named, -9},  /* it has both signs */
+        {c->numbers <= c->words, -99}, /* it has words */
+    };
     double odds = 0;
-    for (size_t i = 0; i < sizeof of_errors / sizeof *of_errors; i++)
-        odds += of_errors[i].holds(&e) ? of_errors[i].log_odds : 0;
+    for (size_t i = 0; i < sizeof evidence / sizeof *evidence; i++)
+        odds += evidence[i].holds ? evidence[i].log_odds : 0;
     return odds;
 }
 
@@ -538,5 +438,5 @@ double br_evidence_order(const struct br_roles *roles, const struct br_candidate
 bool br_evidence_halves(const struct br_roles *roles, const struct br_candidate *candidate,
                         const size_t *sorted)
 {
-    return halves(&(struct view){roles, candidate, sorted, {0}}) > 0;
+    return falls_by(&(struct view){roles, candidate, sorted, {0}}, log(2));
 }

@@ -13,12 +13,6 @@
 
 enum { LONGEST_ADVICE = 400 };
 
-char *br_roles_copy(struct br_roles *r, const char *text)
-{
-    char *copy = br_store_take(&r->store, strlen(text) + 1, 1);
-    return copy ? strcpy(copy, text) : NULL;
-}
-
 /* Whether the numbers of a column rise, or fall, from each row of a case to its next one. */
 static bool is_monotone(const struct br_roles *r, const struct br_role_column *c)
 {
@@ -142,7 +136,7 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
     const size_t digits = strspn(c->shown, "0123456789"); /* gnuplot: "1:n" */
     const bool counted = digits && c->shown[digits] == ':' && c->shown[digits + 1];
     const char *text = c->shown + (counted ? digits + 1 : 0);
-    char *name = br_roles_copy(r, text);
+    char *name = br_store_copy(&r->store, text);
     if (!name)
         return br_no_memory(err, "the table");
     c->name = name;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/words.h"
-#include "orders/reading/json.h"
+#include "orders/reading/reading.h"
 
 enum { DEEPEST = 12, LONGEST = 400 };
 
@@ -54,10 +54,7 @@ static const char *text_of(struct source *s, const json_t *value)
                        : json_is_false(value)          ? "false"
                        : json_is_null(value) || !value ? ""
                                                        : "[...]";
-    if (!*from)
-        return NULL;
-    char *to = br_store_take(&s->fields->store, strlen(from) + 1, 1);
-    return to ? strcpy(to, from) : NULL;
+    return *from ? br_store_copy(&s->fields->store, from) : NULL;
 }
 
 static enum br_status refuse(const struct source *s, const char *why, const char *name)
@@ -280,8 +277,7 @@ static enum br_status take_fields(struct source *s)
     if (f->store.failed)
         return br_no_memory(s->err, "the table");
     json_object_foreach (table, name, column) {
-        char *text = br_store_take(&f->store, strlen(name) + 1, 1);
-        f->heading[j] = text && *name ? strcpy(text, name) : NULL;
+        f->heading[j] = *name ? br_store_copy(&f->store, name) : NULL;
         f->is_words[j] = has_words(s, name);
         json_array_foreach(column, i, value) f->field[i * f->columns + j] = text_of(s, value);
         j++;

@@ -9,7 +9,6 @@
 #include <strings.h>
 
 #include "base/words.h"
-#include "orders/reading/json.h"
 #include "orders/reading/lines.h"
 #include "orders/reading/roles.h"
 
@@ -130,8 +129,8 @@ static enum br_status split_lines(struct layout *l)
     for (size_t i = 0; i < l->lines; i++) {
         if (l->line[i].kind != BR_LINE_TEXT)
             continue;
-        if (br_observer_stops(l->observer))
-            return br_fail(l->err, BR_INTERRUPTED, "interrupted");
+        if (br_observer_check(l->observer, l->err))
+            return l->err->status;
         char *room = br_store_take(store, BR_ROOM(l->line[i].text), 1);
         if (!room)
             return br_no_memory(l->err, "the table");
@@ -805,11 +804,10 @@ enum br_status br_fields_read(const char *text, const char *path,
     if (br_json_is_table(text))
         return br_json_fields(text, path, fields, err);
     struct layout *l = br_store_take(&fields->store, 1, sizeof *l);
-    char *copy = br_store_take(&fields->store, strlen(text) + 1, 1);
+    char *copy = br_store_copy(&fields->store, text);
     if (!l || !copy)
         return br_no_memory(err, "the table");
     *l = (struct layout){.path = path, .observer = observer, .err = err, .fields = fields};
-    strcpy(copy, text);
     const enum br_status status =
         br_lines_cut(copy, path, &fields->store, &l->line, &l->lines, err);
     return status ? status : lay_out(l);

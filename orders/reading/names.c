@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/words.h"
 #include "orders/reading/roles.h"
 
 enum { LONGEST = 200 };
@@ -165,13 +166,6 @@ static double listed_odds(const char *plain_name, const char *column, double *mo
     return best;
 }
 
-static bool takes(const char **at, const char *text)
-{
-    const bool found = strncmp(*at, text, strlen(text)) == 0;
-    *at += found ? strlen(text) : 0;
-    return found;
-}
-
 /* The column that a formula of another gives: "1/N", "sqrt(1/N)" and "dofs^(-1/2)" are an h; "1/h"
  * and "sqrt(cells)" an n. NULL: the name is no such formula. */
 static const char *formula_of(const char *name)
@@ -186,16 +180,17 @@ static const char *formula_of(const char *name)
             text[length++] = (char)tolower((unsigned char)*at);
     text[length] = '\0';
     at = text;
-    bool inverse = takes(&at, "frac1"), root = takes(&at, "sqrt") || takes(&at, "cbrt");
-    inverse |= takes(&at, "1/");
-    root |= takes(&at, "sqrt") || takes(&at, "cbrt");
+    bool inverse = br_takes(&at, "frac1"), root = br_takes(&at, "sqrt") || br_takes(&at, "cbrt");
+    inverse |= br_takes(&at, "1/");
+    root |= br_takes(&at, "sqrt") || br_takes(&at, "cbrt");
     snprintf(base, sizeof base, "%.*s", (int)strcspn(at, "^/"), at);
     at += strlen(base);
-    if (takes(&at, "^")) {
-        inverse |= takes(&at, "-");
-        if (takes(&at, "1/2") || takes(&at, "1/3") || takes(&at, "1/d") || takes(&at, "0.5"))
+    if (br_takes(&at, "^")) {
+        inverse |= br_takes(&at, "-");
+        if (br_takes(&at, "1/2") || br_takes(&at, "1/3") || br_takes(&at, "1/d") ||
+            br_takes(&at, "0.5"))
             root = true;
-        else if (!takes(&at, "1") || !inverse)
+        else if (!br_takes(&at, "1") || !inverse)
             return NULL;
     }
     if (*at || !(inverse || root))

@@ -49,6 +49,14 @@ enum br_status br_fields_read(const char *text, const char *path,
                               struct br_error *err);
 void br_fields_clear(struct br_fields *fields); /* accepts zeros */
 
+/* Whether a text is meant to be JSON (json.c, for br_fields_read). */
+bool br_json_is_table(const char *text);
+
+/* Takes the fields of records, columns, lines of records, the orients of pandas, or an object
+ * around one of them. Fails as br_fields_read does. */
+enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
+                              struct br_error *err);
+
 /* ---- numbers in fields ---- */
 
 struct br_field_number {

@@ -267,7 +267,7 @@ static enum br_status number_names(struct br_roles *r, struct br_error *err)
         if (count == 1 || !br_role_is_studied(c))
             continue;
         snprintf(text, sizeof text, "%.190s (%zu)", c->name, count);
-        if (!(c->label = c->name = br_roles_copy(r, text)))
+        if (!(c->label = c->name = br_store_copy(&r->store, text)))
             return br_no_memory(err, "the table");
     }
     return BR_OK;
@@ -401,7 +401,7 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
                : BR_OK;
 }
 
-enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
+enum br_status br_roles_find(const struct br_fields *fields, const struct br_orders_request *wishes,
                              struct br_roles *r, struct br_error *err)
 {
     *r = (struct br_roles){

@@ -7,8 +7,7 @@
 
 #include <stdint.h>
 
-#include "orders/reading/columns.h"
-#include "orders/reading/reading.h"
+#include "orders/request.h"
 
 enum br_role {
     BR_ROLE_ASIDE,
@@ -95,16 +94,6 @@ struct br_size {
     double dimension;
 };
 
-/* How a table is read by hand; texts may be NULL. */
-struct br_table_wishes {
-    const char *path;      /* for messages */
-    const char *columns;   /* "dx=h,3=l2" */
-    const char *where;     /* "method=P1" */
-    char *errors, *values; /* lists; names of one column but for their case get its case */
-    const char *cost;
-    double dimension; /* 0: nobody stated it */
-};
-
 /* From here on a name is a usual one: of one meaning, or of any. */
 #define BR_USUAL_NAME 4
 #define BR_ANY_NAME 0.5 /* more than that */
@@ -123,8 +112,8 @@ struct br_place {
 
 struct br_roles {
     const struct br_fields *fields;
-    const struct br_table_wishes *wishes;
-    struct br_store store; /* all that is below */
+    const struct br_orders_request *wishes; /* how it is read by hand */
+    struct br_store store;                  /* all that is below */
     struct br_role_column *column;
     size_t columns, rows;
     const char **dropped;    /* rows: why the row is left aside; NULL: it is not; static */
@@ -142,9 +131,11 @@ struct br_roles {
     const char *of_rates; /* that the table's rates are not those of the sizes; static; NULL */
 };
 
-/* Finds the roles (out; clear them even after a failure). Fails with BR_BAD_INPUT where a column
- * has no clear role, with the option that settles it; or with BR_NO_MEMORY. */
-enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
+/* Finds the roles (out; clear them even after a failure). wishes: its path is that of the table,
+ * its dimension 0 where nobody stated it; names of one column in its lists get the case of the
+ * heading. Fails with BR_BAD_INPUT where a column has no clear role, with the option that settles
+ * it; or with BR_NO_MEMORY. */
+enum br_status br_roles_find(const struct br_fields *fields, const struct br_orders_request *wishes,
                              struct br_roles *roles, struct br_error *err);
 void br_roles_clear(struct br_roles *roles); /* accepts zeros */
 
@@ -176,9 +167,6 @@ static inline bool br_role_is_studied(const struct br_role_column *c)
 {
     return c->role == BR_ROLE_ERROR || c->role == BR_ROLE_VALUE;
 }
-
-/* A copy in the store of the roles; NULL: no memory. */
-char *br_roles_copy(struct br_roles *roles, const char *text);
 
 /* Names the columns by their headings, and by --column (headings.c). */
 enum br_status br_roles_take_headings(struct br_roles *roles, struct br_error *err);
