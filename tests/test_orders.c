@@ -148,6 +148,8 @@ TEST(test_lists)
                 "'l2' is given as an error and as a value");
     refuse_with(text, &(struct columns){"h,l2", NULL, 2, NULL},
                 "t.csv: --error: 'h' is a resolution");
+    refuse_with(text, &(struct columns){NULL, NULL, 2, "\"\"=h,drag=aside"},
+                "--column: found '\"\"=h', expected COLUMN=NAME");
     assert_true(br_lists("a, b ,c d", "c d"));
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
