@@ -416,6 +416,7 @@ static void read_kind(char *row)
         char found[2000];
         MUST(br_orders_read(&q, &n, &err));
         describe(&n, found);
+        assert_int_equal(n.assumed, strstr(found, " assumed") && strstr(found, "^(-1/d) from"));
         if (strncmp(found, expected, strlen(expected)) != 0)
             fail_msg("found '%s', expected '%s'", found, expected);
     }
