@@ -107,6 +107,7 @@ TEST(test_recovers)
             CLOSE(j->c[0].value / truths[i].c_h, 1, 1e-6);
             CLOSE(j->c[1].value / truths[i].c_k, 1, 1e-6);
             AT_MOST(j->worst, 1e-7);
+            CLOSE(j->r_squared, 1, 1e-12);
         }
 }
 
