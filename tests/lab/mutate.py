@@ -17,6 +17,7 @@ import argparse
 import collections
 import concurrent.futures
 import difflib
+import filecmp
 import hashlib
 import json
 import os
@@ -66,8 +67,10 @@ def ninja(build, *targets):
 def copy_tree(copy):
     """Returns the tree, its build, and a build that counts which lines run."""
     tree, build, covered = copy / "tree", copy / "build", copy / "covered"
-    tree.mkdir(parents=True, exist_ok=True)
-    output_of("sh", "-c", 'git ls-files -z | xargs -0 cp -u --preserve=timestamps --parents -t "$0"', tree, cwd=SOURCE)
+    for name in output_of("git", "ls-files", cwd=SOURCE).splitlines():
+        (tree / name).parent.mkdir(parents=True, exist_ok=True)
+        if not ((tree / name).exists() and filecmp.cmp(SOURCE / name, tree / name, shallow=False)):
+            shutil.copy(SOURCE / name, tree / name)
     for folder, option in (build, "-Db_coverage=false"), (covered, "-Db_coverage=true"):
         if not (folder / "build.ninja").exists():
             output_of("meson", "setup", folder, tree, "-Doptimization=1", option)
