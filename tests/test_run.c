@@ -342,5 +342,8 @@ TEST(test_model)
     assert_non_null(
         strstr(find(&p, "axial_load")->why, "one evaluation of its history in each step"));
     assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
+    request.wanted = BR_WANT_BENDING;
+    MUST(br_run(&request, &p, &err));
+    assert_string_equal(find(&p, "axial")->why, "not asked for by --fields");
     br_scene_clear(&scene);
 }
