@@ -177,6 +177,7 @@ TEST(test_events)
     assert_int_equal(w.regime_steps[BR_TIP_SLIP], 4);
     CLOSE(w.friction_work, 0.1 * (5 + 5 + 5 + 2), 1e-14);
     CLOSE(w.friction_force.value, 5, 0);
+    CLOSE(w.friction_force.time, 0.2, 1e-15); /* the first of the largest */
 }
 
 /* ---- the history ---- */
