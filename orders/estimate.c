@@ -9,6 +9,23 @@ bool br_order_determined(const struct br_estimate *order)
     return order->high - order->low <= 1 && order->low > 0; /* false for NaN */
 }
 
+/* Whether an end of an interval is its value, rounded to a multiple of that. */
+static bool hides_an_end(const struct br_estimate *e, double unit)
+{
+    const double value = round(e->value / unit);
+    return (e->low < e->value && round(e->low / unit) >= value) ||
+           (e->high > e->value && round(e->high / unit) <= value);
+}
+
+/* The value and the ends, rounded; rounding makes no side of an interval empty. */
+static void round_ends(const struct br_estimate *e, double unit, double end[3])
+{
+    const double value = round(e->value / unit), empty = !(e->low < e->high);
+    end[0] = unit * value + 0.0; /* what rounds to zero has no sign */
+    end[1] = unit * fmin(round(e->low / unit), value - fmax(empty, e->low < e->value)) + 0.0;
+    end[2] = unit * fmax(round(e->high / unit), value + fmax(empty, e->high > e->value)) + 0.0;
+}
+
 const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size)
 {
     if (!isfinite(order->value))
@@ -18,15 +35,13 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
         return buffer;
     }
     const double half = (order->high - order->low) / 2;
-    const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
-    const double unit = pow(10, -decimals);
-    double value[] = {order->value, order->low, order->high};
-    for (int i = 0; i < 3; i++)
-        value[i] = unit * round(value[i] / unit) + 0.0; /* what rounds to zero has no sign */
-    if (!(value[1] < value[2]))                         /* no interval has a width of zero */
-        value[1] -= unit, value[2] += unit;
-    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, value[0], decimals, value[1], decimals,
-             value[2]);
+    int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
+    while (decimals < 4 && hides_an_end(order, pow(10, -decimals)))
+        decimals++;
+    double end[3];
+    round_ends(order, pow(10, -decimals), end);
+    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, end[0], decimals, end[1], decimals,
+             end[2]);
     return buffer;
 }
 
@@ -74,18 +89,23 @@ const char *br_uncertain_text(double value, double half, char *buffer, size_t si
 const char *br_interval_text(const struct br_estimate *e, char *buffer, size_t size)
 {
     enum { MOST = 12 };
-    const double half = (e->high - e->low) / 2, end[] = {e->value, e->low, e->high};
+    const double half = (e->high - e->low) / 2;
     static const char *const before[] = {"", " [", ", "};
     if (!(half > 0 && isfinite(half) && isfinite(e->value))) {
         snprintf(buffer, size, isfinite(e->value) ? "%.9g" : "-", e->value + 0.0);
         return buffer;
     }
-    const int last = first_digit(half) - 1, least = first_digit(e->value) - MOST + 1;
+    const int least = first_digit(e->value) - MOST + 1;
+    int last = first_digit(half) - 1;
+    while (last > least && hides_an_end(e, pow(10, last)))
+        last--;
+    last = last > least ? last : least;
+    double end[3];
+    round_ends(e, pow(10, last), end);
     size_t used = 0;
     for (int i = 0; i < 3; i++) {
         used += (size_t)snprintf(buffer + used, size - used, "%s", before[i]);
-        used +=
-            (size_t)print_rounded(end[i], last > least ? last : least, buffer + used, size - used);
+        used += (size_t)print_rounded(end[i], last, buffer + used, size - used);
     }
     snprintf(buffer + used, size - used, "]");
     return buffer;

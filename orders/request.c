@@ -67,10 +67,15 @@ double br_orders_dimension(const struct br_orders_request *r,
 
 /* Refuses a name that no quantity has. known[count]: the names that one may have meant. */
 static enum br_status refuse_name(const struct br_orders_request *r, const char *where,
-                                  const char *name, const char *const *known, size_t count,
-                                  struct br_error *err)
+                                  const char *name, const struct br_numbers *numbers,
+                                  const char *const *known, size_t count, struct br_error *err)
 {
     char expected[BR_EXPECTED] = "", word[80];
+    for (const struct br_left_aside *l = numbers->left; l < numbers->left + numbers->lefts; l++)
+        if (strcmp(l->what, name) == 0)
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: column %s is left aside: %s",
+                           br_orders_path(r), where,
+                           br_quoted(word, sizeof word, &br_for_text, name), l->why);
     if (count)
         br_expected(name, known, count, expected);
     if (br_resolution_column_find(name))
@@ -99,7 +104,7 @@ static enum br_status check_list(const struct br_orders_request *r, const char *
             found |= strlen(numbers->quantity[i].name) == length &&
                      memcmp(numbers->quantity[i].name, name, length) == 0;
         if (!found)
-            return refuse_name(r, option, word, known, count, err);
+            return refuse_name(r, option, word, numbers, known, count, err);
     }
     return BR_OK;
 }
@@ -116,7 +121,7 @@ static enum br_status check_expectation(const struct br_orders_request *r,
     if (br_expectation_find(numbers, &e, &quantity, &inner))
         return br_fail(err, inner.status, "%s: %s", br_orders_path(r), inner.message);
     if (quantity == numbers->quantities)
-        return refuse_name(r, "what is expected", e.quantity, known, count, err);
+        return refuse_name(r, "what is expected", e.quantity, numbers, known, count, err);
     const char *name = numbers->quantity[quantity].name, *axis = br_axis_letters[e.axis];
     if (!numbers->column[e.axis])
         return br_fail(err, BR_BAD_INPUT,

@@ -189,6 +189,9 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
                                    "cpu, wall, dofs, iterations or memory; --cost NAME names "
                                    "another one",
                            m->source->path, m->of, all->cost);
+        if (found && br_is_logarithm(n->quantity[m->cost].name))
+            return br_fail(err, BR_BAD_INPUT, "%s: %s has logarithms: give the numbers themselves",
+                           m->source->path, n->quantity[m->cost].name);
         if (found && m->costs > 1)
             return br_fail(err, BR_BAD_INPUT,
                            "%s: several columns may be the cost, one of them is %s: --cost NAME "

@@ -444,7 +444,7 @@ static void put_number(struct br_document *d, const struct br_orders *o,
         const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
         const enum br_flag flag = line ? line->observed.point[at->index].flag : BR_FLAG_NONE;
         const char *letter = br_axis_letters[axis];
-        if (n->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
+        if (n->column[axis] && !n->column[axis]->is_degree && !(o->tied && axis == BR_AXIS_TIME))
             BR_PUT(d, br_number(line ? br_orders_rate(line, at->index) : (double)NAN),
                    .key = br_format(d, "%srate_%s", prefix, letter),
                    .heading = both ? br_format(d, "rate in %s", letter) : "rate", .format = "%.2f");

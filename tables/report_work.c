@@ -115,12 +115,6 @@ static void put_digits(struct br_document *d, const struct br_work_precision *w)
 
 /* ---- how costs grow, and what failed ---- */
 
-static const char *times_text(const struct br_estimate *e, char text[2 * TEXT])
-{
-    snprintf(text, 2 * TEXT, "%.3g [%.3g, %.3g]", e->value, e->low, e->high);
-    return text;
-}
-
 static void answer_program(struct br_document *d, const struct br_work_precision *w,
                            const struct br_work_program *p)
 {
@@ -134,7 +128,7 @@ static void answer_program(struct br_document *d, const struct br_work_precision
                     br_order_text(&p->growth, text, TEXT));
     if (tenth)
         br_put_more(d, "%s a tenth of the error costs %s times as much", grows ? "," : "",
-                    times_text(&p->tenth, text));
+                    br_interval_text(&p->tenth, text, sizeof text));
     if (isfinite(p->needed.value))
         br_put_more(d, "%s %s would cost %s %s (%s)", grows || tenth ? "," : "",
                     power_text(p->wanted, power), br_interval_text(&p->needed, text, sizeof text),
@@ -153,8 +147,8 @@ static void put_growth(struct br_document *d, const struct br_work_precision *w)
                .flags = BR_VARIES);
         BR_PUT_ESTIMATE(d, &p->growth, br_order_text(&p->growth, text, TEXT), .key = "growth",
                         .heading = "cost grows like 1/size to the power");
-        BR_PUT_ESTIMATE(d, &p->tenth, times_text(&p->tenth, text), .key = "tenth",
-                        .heading = "a tenth of the error costs, times");
+        BR_PUT_ESTIMATE(d, &p->tenth, br_interval_text(&p->tenth, text, sizeof text),
+                        .key = "tenth", .heading = "a tenth of the error costs, times");
         BR_PUT(d, br_number(p->wanted), .key = "wanted", .format = "%.0e");
         BR_PUT_ESTIMATE(d, &p->needed, br_interval_text(&p->needed, text, sizeof text),
                         .key = "needed", .heading = "which would cost", .unit = w->cost_unit);

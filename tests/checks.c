@@ -72,9 +72,27 @@ double br_test_log_uniform(struct br_test_random *random, double low, double hig
     return exp(br_test_uniform(random, log(low), log(high)));
 }
 
+double br_test_decades(struct br_test_random *random, double low, double high)
+{
+    return pow(10, br_test_uniform(random, low, high));
+}
+
 size_t br_test_index(struct br_test_random *random, size_t count)
 {
     return (size_t)(next(random) % count);
+}
+
+bool br_test_once_in(struct br_test_random *random, size_t times)
+{
+    return br_test_index(random, times) == 0;
+}
+
+struct br_test_random br_test_random_of(uint64_t seed, size_t index)
+{
+    struct br_test_random random = {seed};
+    random.state = next(&random) ^ ((uint64_t)index * 0xd1342543de82ef95u);
+    next(&random);
+    return random;
 }
 
 bool br_test_quick(void)
@@ -192,6 +210,94 @@ static size_t same_bytes(const char *text, const char *stored, double tolerance)
     return (size_t)(at - text) + (*stored != '\0');
 }
 
+enum { MOST_LINES = 8192, LEAST_FOLDED = 3 };
+
+/* Cuts a text into its lines, each with an end; returns their number. */
+static size_t cut(char *text, char *line[MOST_LINES])
+{
+    size_t lines = 0;
+    for (char *row; (row = strsep(&text, "\n")) && text;) {
+        assert_true(lines < MOST_LINES);
+        line[lines++] = row;
+    }
+    return lines;
+}
+
+/* Of the lines from i on, how many stand before, or are empty; *from is the first of them. */
+static size_t longest_copy(char *const *line, size_t lines, size_t i, size_t *from)
+{
+    size_t longest = 0, count = 0;
+    while (i + count < lines && !*line[i + count])
+        count++;
+    if (count > 0)
+        return count;
+    for (size_t j = 0; j < i; j++) {
+        for (count = 0; j + count < i && i + count < lines; count++)
+            if (strcmp(line[j + count], line[i + count]) != 0)
+                break;
+        if (count > longest) {
+            longest = count;
+            *from = j;
+        }
+    }
+    return longest;
+}
+
+/* Prints the text without what stands twice in it: some lines that stand before are named, and
+ * empty lines are counted. */
+static void fold(FILE *out, char *text)
+{
+    static char *line[MOST_LINES];
+    const size_t lines = cut(text, line);
+    size_t count = 0, from = 0;
+    for (size_t i = 0; i < lines; i += count) {
+        count = longest_copy(line, lines, i, &from);
+        if (!*line[i] && count > 1) {
+            fprintf(out, "[%zu empty lines]\n", count);
+        } else if (*line[i] && count >= LEAST_FOLDED) {
+            fprintf(out, "[lines %zu to %zu]\n", from + 1, from + count);
+        } else {
+            fprintf(out, "%s\n", line[i]);
+            count = 1;
+        }
+    }
+}
+
+/* Prints what was folded. */
+static void unfold(FILE *out, char *text)
+{
+    static char *row[MOST_LINES], *line[MOST_LINES], empty[] = "";
+    const size_t rows = cut(text, row);
+    size_t lines = 0;
+    for (size_t i = 0; i < rows; i++) {
+        size_t first, last;
+        char bracket;
+        const bool again = sscanf(row[i], "[lines %zu to %zu%c", &first, &last, &bracket) == 3;
+        const bool none = !again && sscanf(row[i], "[%zu empty lines%c", &last, &bracket) == 2;
+        if (!again)
+            first = 1;
+        if (!again && !none)
+            last = 1;
+        assert_true(first > 0 && lines + last < MOST_LINES);
+        for (size_t j = first; j <= last; j++)
+            line[lines++] = again ? line[j - 1] : none ? empty : row[i];
+    }
+    for (size_t i = 0; i < lines; i++)
+        fprintf(out, "%s\n", line[i]);
+}
+
+/* What a change of the text prints, to be freed; the text is lost. */
+static char *changed(void (*change)(FILE *out, char *text), char *text)
+{
+    char *other = NULL;
+    size_t size;
+    FILE *out = open_memstream(&other, &size);
+    assert_non_null(out);
+    change(out, text);
+    assert_int_equal(fclose(out), 0);
+    return other;
+}
+
 void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance)
 {
     static char stored[1 << 18];
@@ -200,19 +306,26 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     print(out);
+    fputc('\n', out);
     assert_int_equal(fclose(out), 0);
     snprintf(path, sizeof path, "%s/tests/golden/made/%s.txt", getenv("BEAMRATE_DATA"), name);
-    if (getenv("BR_TEST_UPDATE"))
-        write_file(path, text);
+    if (getenv("BR_TEST_UPDATE")) {
+        char *copy = strdup(text), *short_one = changed(fold, copy);
+        write_file(path, short_one);
+        free(short_one);
+        free(copy);
+    }
     FILE *file = fopen(path, "r");
     if (!file)
         fail_msg("%s is not there", path);
     stored[fread(stored, 1, sizeof stored - 1, file)] = '\0';
     fclose(file);
-    const size_t same = same_bytes(text, stored, tolerance);
+    char *whole = changed(unfold, stored);
+    const size_t same = same_bytes(text, whole, tolerance);
     if (same != size)
         fail_msg("%s is otherwise from here on (./bootstrap update writes it anew): %.200s", path,
                  text + (same < size ? same : size));
+    free(whole);
     free(text);
 }
 

@@ -35,7 +35,12 @@ struct br_test_random {
 };
 double br_test_uniform(struct br_test_random *random, double low, double high);
 double br_test_log_uniform(struct br_test_random *random, double low, double high);
-size_t br_test_index(struct br_test_random *random, size_t count); /* 0 .. count - 1 */
+double br_test_decades(struct br_test_random *random, double low, double high); /* 10^x */
+size_t br_test_index(struct br_test_random *random, size_t count);              /* 0 .. count - 1 */
+bool br_test_once_in(struct br_test_random *random, size_t times); /* with probability 1/times */
+
+/* A generator for item `index` of a seed, independent of the draws for other items. */
+struct br_test_random br_test_random_of(uint64_t seed, size_t index);
 
 /* The path of a file, one a program, that now has this text: a scene or another input. */
 const char *br_test_scene_file(const char *text);

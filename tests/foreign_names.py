@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Hostile names, units, titles and messages in tables, study files, scenes and programs, through all
 formats, read by parsers that are not ours: each report has the form that it has with a harmless name.
-Texts that are not UTF-8 are refused with file, line and byte. $BEAMRATE is the program."""
+So have those of scenes whose files have such names, by every command that takes a scene, and gnuplot
+($GNUPLOT) takes all their scripts. Texts that are not UTF-8 are refused with file, line and byte.
+$BEAMRATE is the program."""
 import csv
 import html.parser
 import json
@@ -31,6 +33,37 @@ TEXTS = [
     "# SKIP a.b.c, d; e",
     "\ufffe\ufeff\u200b",
     40 * "\u00e4\u20ac",
+]
+# The name of a scene's file, and its title. The last one is as long as names may be.
+SCENES = [
+    ("harmless", "harmless"),
+    ("'.system('touch MARK').'", "5'' beam"),
+    ("'; system(\"touch MARK\"); '", "'; system(\"touch MARK\"); '"),
+    ("<touch MARK", "''; system(\"touch MARK\"); ''"),
+    ("|touch MARK", "' ' }} ; system('touch MARK'); # {"),
+    ("`touch MARK`", "`touch MARK` \"`touch MARK`\" @stem \\"),
+    ("$(touch MARK)", "a\nsystem('touch MARK')\n#\n! touch MARK\n\\"),
+    ("\\input{MARK}", "\\input{/etc/passwd} \\write18{touch MARK} $x_1^2$ 5% & # ~"),
+    ("<td><script>", "</td><script>alert(1)</script> <img src=x onerror=y> [a](b) | c"),
+    ("]]>&amp;", "]]> <!-- &lt; &#x1b; <![CDATA["),
+    ("=1+1", "=cmd|' /C calc'!A0"),
+    ("-@+x", "--out=MARK @SUM(1) +1,\"2\""),
+    ("a\nb\x1b[2J\u202e\x9b\x7f", "\x1b[31m\u202eabc\u2066\x85\x9b\a\r\x7f\u200f"),
+    ("100%s%n%d", "%s%n%d %99999d {/Symbol a}_b^c"),
+    (b"latin \xe4\xff", "Tr\u00e4ger"),
+    (240 * "n", 1100 * "'"),
+]
+# What takes a scene, and its exit code; the last one takes long.
+COMMANDS = [
+    ("run SCENE --n 2 --k 0.5 --out run --json run.json", 0),
+    ("study SCENE --n 2,4 --k 0.5,0.25 --reference mms --out study", 0),
+    ("check SCENE --junit c.xml --json c.json --markdown c.md", 1),
+    ("trade SCENE --methods euler --n 2 --k 0.5,0.25 --reference mms --out trade", 0),
+    ("trade SCENE --split --methods euler --n 2 --k 0.5,0.25 --out split", 0),
+    ("scenes SCENE", 0),
+    ("run SCENE --n 2 --k 3", 2),
+    ("study SCENE.no", 2),
+    ("trade SCENE --error 0.3 --methods euler --reference mms --out goal", 0),
 ]
 HIDDEN = re.compile("[\0-\x09\x0b-\x1f\x7f-\x9f\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff"
                     "\ufffe\uffff]")
@@ -176,6 +209,51 @@ def forms():
     return found
 
 
+def make_scene_reports(name, title, commands):
+    file = b"./" + (name if isinstance(name, bytes) else name.encode()) + b".yaml"
+    title = json.dumps(title).replace("\x7f", "\\x7f")  # `scenes` shows a file as it is
+    write(file, f"title: {title}\nremark: {title}\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
+          "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n  solution: t*x*(2 - x) [m]\n"
+          "verify:\n  space:\n    n: 2, 4, 8, 16, 32\n    k: 0.5 s\n    l2: 1 +- 0.1\n")
+    for line, code in commands:
+        out = run([word.encode().replace(b"SCENE", file) for word in line.split()], code)
+        assert "is not drawn" not in out, out
+
+
+def check_scripts():
+    """gnuplot takes each one without a word: as SVG alone, which is quick."""
+    draw = ("find . -name '*.gp' ! -name '*-h.*' ! -name '*-work.*' -execdir sh -c "
+            "'sed s/svg.png.pdf/svg/ \"$1\" | \"$GNUPLOT\" --default-settings 2>&1 || echo \"$1\"' sh {} \\;")
+    said = subprocess.run(["/bin/sh", "-c", "PATH=/usr/bin:/bin; " + draw], capture_output=True, check=True).stdout
+    assert not said, said
+
+
+def check_scenes(path):
+    """All files of a scene, whatever their names are, have the forms of those of the harmless one."""
+    expected, failures = {}, 0
+    for i, (name, title) in enumerate(SCENES):
+        planned = i % 5 == 0 or "BR_TEST_LONG" in os.environ
+        # Pictures take most of the time.
+        drawn = i in (1, len(SCENES) - 1) or "BR_TEST_LONG" in os.environ
+        os.environ["PATH"] = path if drawn else "/nonexistent"
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                make_scene_reports(name, title, COMMANDS if planned else COMMANDS[:-1])
+                if "GNUPLOT" in os.environ:
+                    check_scripts()
+                found = sorted((os.path.dirname(file), os.path.splitext(file)[1], repr(form))
+                               for file, form in forms().items() if file[-4:] != ".svg" and "goal" not in file)
+                harmless = expected.setdefault(drawn, found)
+                assert found == harmless, set(found) ^ set(harmless)
+            except AssertionError as why:
+                print(f"{name!r}: {why}", file=sys.stderr)
+                failures += 1
+            os.chdir("/")
+    os.environ["PATH"] = path
+    return failures
+
+
 def check_refusals():
     """Latin-1, as old programs write the degree sign, in all places where text is read."""
     scene = b"title: a\nlength: 1 m\nduration: 1 s\nremark: 5 \xb0C\n"
@@ -226,6 +304,7 @@ def main():
                 print(f"{text!r}: {why}", file=sys.stderr)
                 failures += 1
             os.chdir("/")
+    failures += check_scenes(path)
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         check_refusals()

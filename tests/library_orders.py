@@ -204,6 +204,8 @@ def check_numbers():
     assert np.isclose(order, 1.5) and np.float64(1) < order and max(order, 1) is order
     assert f"{order:.2f}" == "1.50" and json.loads(json.dumps(order)) == order
     assert repr(br.Number(2, 1.5, 2.5)) == str(br.Number(2, 1.5, 2.5)) == "2 [1.5, 2.5]"
+    assert repr(br.Number(2, 1.9999999, 2.5)) == "2 [1.9999999, 2.5]"  # rounding hides no end
+    assert repr(br.Number(4.0002, 3.996, 4.006)) == "4.0002 [3.996, 4.006]"
     for other in (copy.copy(order), pickle.loads(pickle.dumps(order))):
         assert (other, other.low, other.high, other.open) == (order, order.low, order.high, order.open)
     case = found.check((br.SPACE, 1.5, 0.1)).cases[0]
@@ -240,6 +242,11 @@ def check_left_out():
     close(found.left_out[0].size, 0.1)
     error[2] = np.nan
     assert [p.left_out for p in br.orders(error, n=N)["error"].left_out][-1] == "failed"
+    for missing in (np.nan, np.inf):  # at the finest size
+        lost = br.orders([*(3.0 / N ** 2), missing], n=[*N, 320])
+        refused("the finest row, n = 320, has no number; without it", lambda: lost.assert_order(2), AssertionError)
+        refused("INCONCLUSIVE", lambda: lost.assert_order(2), AssertionError)
+        br.orders([*(3.0 / N ** 2), missing], n=[*N, 320], without=320).assert_order(2)
     refused("INCONCLUSIVE", lambda: br.orders([4, 2, 1], h=[4, 2, 1]).assert_order(1), AssertionError)
     nothing = br.Orders([16 / 3, 4 / 3, 1 / 3, 1 / 12], h=[8, 4, 2, 1]).line(br.SPACE)
     close(nothing.constant, 1 / 12, 1e-6)  # of all digits: rounded numbers leave the order open by 3e-5
@@ -253,6 +260,10 @@ def check_window():
         assert found.order == alone.order and found.order.low == alone.order.low, window
         assert [row["left_out"] for row in found["error"].rows] == ["by hand"] * 2 + [""] * 3, window
         assert len(found["error"].points) == 3
+    for none in ({"without": []}, {"without": None}, {"finest": 0}, {"where": {}}, {"columns": {}}):
+        every = br.orders({"n": N, "e": 1 / N ** 2}, values=[], **none)
+        assert [p.left_out for p in every["e"].points] == [""] * 5, (none, every)
+    refused("--error", lambda: br.orders({"n": N, "e": 1 / N}, errors=[]))
     assert "rows by hand: the 3 finest of 5." in repr(br.orders(error, n=N, finest=3))
     axes = Axes()
     br.orders(error, n=N, finest=3).plot(axes)

@@ -17,6 +17,10 @@ def test_grid(orders):
     grid = [(h, k) for h in (1, .5, .25, .125) for k in (1, .5, .25, .125)]
     orders.check({"h": [h for h, _ in grid], "k": [k for _, k in grid],
                   "L2 error": [h ** 2 + k for h, k in grid]}, {"L2 error": {"h": 2, "k": 1}})
+def test_two(orders):
+    for order in (2, float(os.environ["ORDER"])):
+        orders.check({"n": [8, 16, 32, 64, 128], f"e{order}": [i ** -order for i in (8, 16, 32, 64, 128)]},
+                     {f"e{order}": 2})
 """
 os.chdir(tempfile.mkdtemp())
 Path("test_made.py").write_text(TEST)
@@ -32,9 +36,9 @@ def run(code, *said, factor=1, order=2, options=()):
         assert text in ended.stdout, (text, ended.stdout)
 
 
-run(0, "2 passed")
+run(0, "3 passed")
 assert not baseline.exists()
-run(1, "1 failed, 1 passed", order=1.5, options=["--update-baseline"])
+run(1, "2 failed, 1 passed", order=1.5, options=["--update-baseline"])
 run(1, "Failed: l2: order 1.50", "], expected 2 +- 0.1: FAIL: the order,", order=1.5)
 assert list(json.loads(baseline.read_text())["tests"]) == ["test_made.py::test_grid"]  # what passes alone
 run(0, options=["--update-baseline"])

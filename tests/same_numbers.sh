@@ -139,6 +139,36 @@ compare() { # NAME EXPECTATION OPTION...
     report "$name" "its row of the table has that verdict"
 }
 
+# Rows in another order, drawn from the seed: the same text. Errors or values that are 1024 times as many:
+# the same orders.
+rearranged() { # NAME OPTION...
+    name=$1
+    shift
+    cp "$name.txt" table.txt
+    "$BEAMRATE" orders table.txt "$@" >text 2>&1
+    orders_of text >answer
+    { sed 1q "$name.txt"; sed 1d "$name.txt" | awk -v seed="$seed" 'BEGIN { srand(seed) } { print rand(), $0 }' | sort | cut -d' ' -f2-; } >table.txt
+    cmp -s table.txt "$name.txt" && echo "the same order" >why || : >why
+    "$BEAMRATE" orders table.txt "$@" 2>&1 | diff text - >>why
+    report "$name" "rows in another order"
+    awk 'NR > 1 { $NF = sprintf("%.17g", 1024 * $NF) } { print }' "$name.txt" >table.txt
+    "$BEAMRATE" orders table.txt "$@" >text 2>&1
+    orders_of text | diff answer - >why
+    report "$name" "errors in another unit"
+}
+
+# An order, a constant and sizes that are drawn: the order is found to a thousandth.
+power() { # NUMBER
+    awk -v seed="$((seed + $1))" 'BEGIN { srand(seed); p = 0.5 + 3.5 * rand(); c = exp(20 * rand() - 10)
+        print "h e" >"table.txt"
+        for (h = rand() + 0.1; ++i <= 6; h /= 1.4 + rand()) printf "%.17g %.17g\n", h, c * h ^ p >"table.txt"
+        print p }' >p
+    "$BEAMRATE" orders table.txt >text 2>&1
+    orders_of text | awk -v p="$(cat p)" '{ off = $2 - p; ok = off < 6e-3 && off > -6e-3 && $3 <= p + 5e-4 && p - 5e-4 <= $4 }
+        END { if (NR != 1 || !ok) print "the order is " p ", found: " $0 }' >why
+    report power "order $(cat p)"
+}
+
 cat >line.txt <<'END'
 n l2
 5 9e-2
@@ -169,5 +199,11 @@ compare grid 'l2: h 2 +- 0.1, k 1 +- 0.1'
 compare hidden 'l2: h 2 +- 0.1, k 1 +- 0.1'
 compare values 'drag: h 2 +- 0.1' --value drag
 compare both 'drag: h 2 +- 0.1, k 1 +- 0.1' --value drag
+seed=${BR_TEST_SEED:-1}
+[ -z "${BR_TEST_LONG:-}" ] || seed=${BR_TEST_SEED:-$(date +%s)}
+echo "# seed $seed"
+for name in line grid hidden; do rearranged $name; done
+for name in values both; do rearranged $name --value drag; done
+for i in 1 2 3 4 5; do power "$i"; done
 echo "1..$number"
 [ -z "$failed" ]

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stability limit of the lagged contact: the closed form against the linear solvers, against
- * marches, and in the limits that can be written down. */
+ * marches, and in the limits that can be written down. Contact at u_n has none. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "reference/energy/energy.h"
 #include "solver/function.h"
 #include "solver/laws.h"
 #include "solver/scene.h"
 #include "study/estimate/warnings.h"
+#include "study/run/run.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 /* A rod that stays pressed against its obstacle. */
@@ -165,6 +168,42 @@ TEST(test_marches)
             }
 }
 
+/* ---- contact at u_n ---- */
+
+/* The rest of a pressed rod by its balance: the free tip is at q L^2 / (2 a), and the contact's
+ * share of q L / 2 is c_H L over a + c_H L. */
+static void check_rest(const struct br_time_scheme *scheme, double stiffness, size_t steps)
+{
+    static struct br_run_report report;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    scene.bending.modelled = false;
+    scene.density = 1e-4;
+    scene.axial.stiffness = 1000;
+    scene.axial.load = (struct br_load){{{{.constant = 1000}, {.constant = 1}}}};
+    scene.contact = (struct br_contact){.modelled = true, .stiffness = stiffness};
+    struct br_run_request request = {
+        .scene = &scene, .method = br_method_default(), .n = 8, .steps = steps, .check = true};
+    request.method.scheme = scheme;
+    request.method.contact = br_contact_rule_find("implicit");
+    MUST(br_run(&request, &report, &err));
+    MUST(report.failure.status);
+    MUST(report.verdict.status);
+    const double rest = 500 / (1000 + stiffness); /* 1e-8 of the way is left by bdf3 in 10 steps */
+    CLOSE(report.end.last.contact_force / (stiffness * rest), 1, 1e-7);
+    CLOSE(report.end.last.displacement[BR_AXIAL] / 0.5, rest / 0.5, 1e-7);
+}
+
+/* Contact at u_n has no limit, and every scheme damps at infinity: ten steps of a hundred
+ * relaxation times bring a pressed rod to rest. */
+TEST(test_rest)
+{
+    for (size_t i = 0; br_time_schemes[i]; i++)
+        for (double stiffness = 1; stiffness < 2e15; stiffness *= 1e3)
+            for (size_t steps = 10; steps <= 1000; steps *= 10)
+                check_rest(br_time_schemes[i], stiffness, steps);
+}
+
 /* ---- what is said of it ---- */
 
 TEST(test_round_steps)
@@ -252,4 +291,70 @@ TEST(test_touched)
         assert_int_equal(br_march_contact_unstable(march), touching);
         br_march_free(march);
     }
+}
+
+/* ---- a contact that gains energy within the limit, against marches ---- */
+
+/* The share of what was put into the axial field that a march of it has added at its most. */
+static double added(const struct br_scene *scene, size_t n, size_t steps)
+{
+    const struct br_method method = br_method_default();
+    struct br_error err = {0};
+    struct br_energy start, now;
+    struct br_work work;
+    struct br_energy_meter *meter;
+    double share = 0;
+    struct br_march *march = br_test_march(scene, n, steps, &method);
+    MUST(br_energy_meter_create(&meter, march, scene, &method, &err));
+    for (size_t i = 0; i < steps; i++) {
+        MUST(br_march_step(march, &err));
+        br_energy_meter_step(meter);
+        br_energy_meter_read(meter, &start, &now, &work);
+        const double put_in = br_energy_put_in(&start, &work, BR_AXIAL);
+        if (put_in > 0)
+            share = fmax(share, br_energy_added(&work, BR_AXIAL) / put_in);
+    }
+    br_energy_meter_free(meter);
+    br_march_free(march);
+    return share;
+}
+
+static bool is_warned(const struct br_scene *scene, const char *contact, size_t steps)
+{
+    struct br_method method = br_method_default();
+    struct br_warnings w = {0};
+    struct br_error err;
+    method.contact = br_contact_rule_find(contact);
+    const struct br_planned_march o = {.scene = scene, .method = &method, .n = 40, .steps = steps};
+    MUST(br_check_ahead_cheaply(&o, &w, &err));
+    return br_test_warning(&w, BR_WARN_BOUNCE);
+}
+
+/* Of the bundled scenes those are warned of that do gain energy on a finer mesh, at the steps of
+ * `run` and at fewer. */
+TEST(test_bounce)
+{
+    enum { N = 40 };
+    static const size_t steps[] = {200, 1000};
+    char **name;
+    size_t count, warned[2] = {0};
+    struct br_error err;
+    MUST(br_scene_list(&name, &count, &err));
+    for (size_t i = 0; i < count; i++) {
+        struct br_scene scene = br_test_bundled(name[i]);
+        for (size_t j = 0; j < 2 && scene.contact.modelled; j++) {
+            struct br_scene axial;
+            assert_false(is_warned(&scene, "implicit", steps[j]));
+            if (!is_warned(&scene, "lagged", steps[j]))
+                continue;
+            MUST(br_model_select(&scene, BR_WANT_AXIAL, &axial, &err));
+            const double share = added(&axial, N, steps[j]);
+            print_message("# %s, %zu steps: %.3g\n", name[i], steps[j], share);
+            assert_true(share > 0.003);
+            warned[j]++;
+        }
+        br_scene_clear(&scene);
+    }
+    br_scene_list_free(name, count);
+    assert_true(warned[0] >= 2 && warned[1] == 1);
 }

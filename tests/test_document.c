@@ -9,6 +9,7 @@
 #include <string.h>
 #include <sys/ioctl.h>
 #include <termios.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "checks.h"
@@ -203,12 +204,314 @@ static void print_formats(FILE *out)
     fputs("==== the terminal\n", out);
     MUST(br_document_show(out, &d, 1, &err));
     br_document_clear(&d);
+    fputs("==== pages\n", out);
+    print_pages(out);
 }
 
 TEST(test_formats)
 {
     br_test_stored("document", print_formats, 0);
-    br_test_stored("pages", print_pages, 0);
+}
+
+/* ---- drawn documents: every format has the same cells ---- */
+
+enum { DRAWN = 40, MOST_TABLES = 3, MOST_COLUMNS = 6, MOST_ROWS = 7, WORD = 48 };
+
+/* What was put, and nothing else, is what each format has to have. Texts are words here; what
+ * formats make of other texts is stored above. */
+struct drawn {
+    size_t tables, columns[MOST_TABLES], rows[MOST_TABLES];
+    struct br_value value[MOST_TABLES][MOST_ROWS][MOST_COLUMNS];
+    char text[MOST_TABLES][MOST_ROWS][MOST_COLUMNS][WORD];
+    char key[MOST_TABLES][MOST_COLUMNS][WORD];
+};
+
+static struct br_value draw_value(struct br_test_random *r, size_t kind, char text[WORD])
+{
+    snprintf(text, WORD, "w%zux", br_test_index(r, 99999));
+    const double number = br_test_uniform(r, -1, 1) * pow(10, br_test_uniform(r, -300, 300));
+    switch (br_test_index(r, 6) == 0 ? 4 : kind) {
+    case 0:
+        return br_number(br_test_index(r, 5) ? number : (double)NAN);
+    case 1:
+        return br_count(br_test_index(r, 1 << 30));
+    case 2:
+        return br_text(text);
+    case 3:
+        return br_truth(br_test_index(r, 2));
+    default:
+        return br_nothing();
+    }
+}
+
+/* Begins with a table's number and the row's in words, so that rows and tables can be told apart.
+ */
+static void draw_document(struct drawn *w, struct br_document *d, struct br_test_random *r)
+{
+    br_document_begin(d, "drawn", "beamrate drawn", 1, "Drawn");
+    w->tables = 1 + br_test_index(r, MOST_TABLES);
+    for (size_t t = 0; t < w->tables; t++) {
+        char name[WORD];
+        size_t kind[MOST_COLUMNS];
+        w->columns[t] = 2 + br_test_index(r, MOST_COLUMNS - 1);
+        w->rows[t] = 1 + br_test_index(r, MOST_ROWS);
+        snprintf(name, sizeof name, "t%zu", t);
+        br_put_table(d, name, name, 0);
+        for (size_t j = 0; j < w->columns[t]; j++) {
+            kind[j] = br_test_index(r, 4);
+            snprintf(w->key[t][j], WORD, "c%zu", j);
+        }
+        for (size_t i = 0; i < w->rows[t]; i++) {
+            br_put_row(d);
+            for (size_t j = 0; j < w->columns[t]; j++) {
+                char *text = w->text[t][i][j];
+                w->value[t][i][j] = draw_value(r, kind[j], text);
+                if (j == 0) {
+                    snprintf(text, WORD, "r%zuof%zu", i, t);
+                    w->value[t][i][j] = br_text(text);
+                }
+                BR_PUT(d, w->value[t][i][j], .key = w->key[t][j], .format = "%.4e");
+            }
+        }
+    }
+}
+
+/* A cell as people or as programs read it. */
+static void word_of(struct br_value v, bool people, char word[WORD])
+{
+    switch (v.kind) {
+    case BR_NUMBER:
+        if (isfinite(v.number))
+            snprintf(word, WORD, people ? "%.4e" : "%.17g", v.number);
+        else
+            snprintf(word, WORD, people ? "-" : "");
+        break;
+    case BR_COUNT:
+        snprintf(word, WORD, "%lld", v.count);
+        break;
+    case BR_TEXT:
+        snprintf(word, WORD, "%s", v.text);
+        break;
+    case BR_TRUTH:
+        snprintf(word, WORD, "%s", people ? v.truth ? "yes" : "no" : v.truth ? "true" : "false");
+        break;
+    default:
+        snprintf(word, WORD, people ? "-" : "");
+    }
+}
+
+/* Takes the marks of a format away: fields are then parted by blanks (of CSV, by commas). */
+static void strip_marks(char *line)
+{
+    static const char *const marks[] = {"<td class=\"number\">",
+                                        "<td class=\"text\">",
+                                        "</td>",
+                                        "<tr>",
+                                        "</tr>",
+                                        "\\cdot10^",
+                                        "\\\\",
+                                        "|",
+                                        "&",
+                                        "$",
+                                        "}"};
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
+        for (char *at; (at = strstr(line, marks[i]));) {
+            const size_t size = strlen(marks[i]);
+            memset(at, ' ', size);
+            if (marks[i][1] == 'c') { /* 1.5\cdot10^{-3}: a word again */
+                memmove(at + 1, at + size + 1, strlen(at + size + 1) + 1);
+                *at = 'e';
+            }
+        }
+}
+
+/* People do not see a column without a value. */
+static bool has_value(const struct drawn *w, size_t t, size_t column)
+{
+    char word[WORD] = "-";
+    for (size_t i = 0; i < w->rows[t] && strcmp(word, "-") == 0; i++)
+        word_of(w->value[t][i][column], true, word);
+    return strcmp(word, "-") != 0;
+}
+
+/* Whether the words of a line are those of the row; numbers may be written in two ways. */
+static bool is_row(char *line, const struct drawn *w, size_t t, size_t i)
+{
+    char *rest, *found = strtok_r(line, " ", &rest), word[WORD];
+    for (size_t j = 0; j < w->columns[t]; j++) {
+        if (!has_value(w, t, j))
+            continue;
+        word_of(w->value[t][i][j], true, word);
+        char *end, *found_end;
+        if (!found || (strcmp(found, word) != 0 &&
+                       (strtod(found, &found_end) != strtod(word, &end) || *end || *found_end)))
+            return false;
+        found = strtok_r(NULL, " ", &rest);
+    }
+    return !found;
+}
+
+/* Each row stands once, in its order. */
+static void rows_are_in(const struct br_document_format *format, const struct drawn *w,
+                        struct br_document *d)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    MUST(br_document_print(out, format, d, NULL, &err));
+    assert_int_equal(fclose(out), 0);
+    size_t t = 0, i = 0;
+    char *rest = text;
+    for (char *line; t < w->tables && (line = strsep(&rest, "\n"));) {
+        char name[WORD];
+        snprintf(name, sizeof name, "r%zuof%zu", i, t);
+        if (!strstr(line, name))
+            continue;
+        strip_marks(line);
+        char *copy = strdup(line);
+        if (!is_row(line, w, t, i))
+            fail_msg("%s has another row %zu of table %zu: %s", format->name, i, t, copy);
+        free(copy);
+        if (++i == w->rows[t]) {
+            i = 0;
+            t++;
+        }
+    }
+    if (t < w->tables)
+        fail_msg("%s lacks row %zu of table %zu", format->name, i, t);
+    free(text);
+}
+
+static void csv_is(const struct drawn *w, struct br_document *d)
+{
+    const struct br_document_table *table;
+    size_t block = 0;
+    for (size_t t = 0; (table = br_document_next_table(d, &block)); t++) {
+        char *text = NULL, *expected = NULL, word[WORD];
+        size_t size, other;
+        FILE *out = open_memstream(&text, &size), *line = open_memstream(&expected, &other);
+        MUST(br_document_print(out, &br_document_csv, d, table, &err));
+        for (size_t i = 0; i <= w->rows[t]; i++)
+            for (size_t j = 0; j < w->columns[t]; j++) {
+                if (i > 0)
+                    word_of(w->value[t][i - 1][j], false, word);
+                fprintf(line, "%s%s", i ? word : w->key[t][j], j + 1 < w->columns[t] ? "," : "\n");
+            }
+        assert_int_equal(fclose(out) + fclose(line), 0);
+        assert_string_equal(text, expected);
+        free(text);
+        free(expected);
+    }
+}
+
+static void json_is(const struct drawn *w, struct br_document *d)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    MUST(br_document_print(out, &br_document_json, d, NULL, &err));
+    assert_int_equal(fclose(out), 0);
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    assert_int_equal(json_object_size(json_object_get(root, "tables")), w->tables);
+    for (size_t t = 0; t < w->tables; t++) {
+        char name[WORD];
+        snprintf(name, sizeof name, "t%zu", t);
+        const json_t *rows = json_object_get(json_object_get(root, "tables"), name);
+        assert_int_equal(json_array_size(rows), w->rows[t]);
+        for (size_t i = 0; i < w->rows[t]; i++) {
+            const json_t *row = json_array_get(rows, i);
+            assert_int_equal(json_object_size(row), w->columns[t]);
+            for (size_t j = 0; j < w->columns[t]; j++) {
+                const struct br_value v = w->value[t][i][j];
+                const json_t *cell = json_object_get(row, w->key[t][j]);
+                if (v.kind == BR_NOTHING || (v.kind == BR_NUMBER && !isfinite(v.number)))
+                    assert_true(json_is_null(cell));
+                else if (v.kind == BR_TEXT)
+                    assert_string_equal(json_string_value(cell), v.text);
+                else if (v.kind == BR_TRUTH)
+                    assert_true(v.truth ? json_is_true(cell) : json_is_false(cell));
+                else
+                    assert_true(json_number_value(cell) ==
+                                (v.kind == BR_COUNT ? (double)v.count : v.number));
+            }
+        }
+    }
+    json_decref(root);
+    free(text);
+}
+
+TEST(formats_have_the_same_cells)
+{
+    static const struct br_document_format *const people[] = {
+        &br_document_text, &br_document_markdown, &br_document_latex, &br_document_html};
+    static struct drawn w;
+    const char *given = getenv("BR_TEST_SEED");
+    const uint64_t seed = given            ? strtoull(given, NULL, 10)
+                          : br_test_long() ? (uint64_t)time(NULL)
+                                           : 1;
+    print_message("# seed %llu\n", (unsigned long long)seed);
+    for (size_t i = 0; i < DRAWN; i++) {
+        struct br_test_random r = br_test_random_of(seed, i);
+        struct br_document d = {0};
+        draw_document(&w, &d, &r);
+        for (size_t f = 0; f < sizeof people / sizeof *people; f++)
+            rows_are_in(people[f], &w, &d);
+        csv_is(&w, &d);
+        json_is(&w, &d);
+        br_document_clear(&d);
+    }
+}
+
+/* A unit of the first column, and first columns that not all see. */
+static void build_first(struct br_document *d)
+{
+    static const struct br_column hidden[] = {{.key = "pc", .flags = BR_FOR_PROGRAMS},
+                                              {.key = "one", .unit = "m"},
+                                              {.key = "two", .unit = "s"}};
+    static const struct br_column seen[] = {
+        {.key = "pe", .flags = BR_FOR_PEOPLE}, {.key = "one", .unit = "m"}, {.key = "two"}};
+    static const struct br_column both[] = {{.key = "one", .unit = "m"}, {.key = "two"}};
+    br_document_begin(d, "first", "f", 1, "First");
+    BR_TABLE(d, "t", "T", 0, hidden);
+    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
+    BR_TABLE(d, "u", "U", 0, seen);
+    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
+    BR_TABLE(d, "v", "V", 0, both);
+    BR_PUT_ROW(d, br_count(8), br_count(9));
+}
+
+TEST(test_first_columns)
+{
+    static const struct {
+        const struct br_document_format *format;
+        const char *text[3]; /* of each table */
+    } rows[] = {
+        {&br_document_text, {"\none, m  two, s\n", "\npe  one, m  two\n", "\none, m  two\n"}},
+        {&br_document_markdown,
+         {"\n| one, m | two, s |", "\n| pe | one, m | two |", "\n| one, m | two |"}},
+        {&br_document_latex, {"\none, m & two, s ", "\npe & one, m & two ", "\none, m & two "}},
+        {&br_document_html, {">one, m</th>", ">pe</th>", ">one, m</th>"}},
+        {&br_document_csv, {"pc,one [m],two [s]\n", "one [m],two\n8,9\n", "one [m],two\n8,9\n"}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_document d = {0};
+        size_t block = 0, size;
+        build_first(&d);
+        for (size_t t = 0; t < 3; t++) {
+            const struct br_document_table *table = br_document_next_table(&d, &block);
+            char *text = NULL;
+            FILE *out = open_memstream(&text, &size);
+            MUST(br_document_print(out, rows[i].format, &d, rows[i].format->by_table ? table : NULL,
+                                   &err));
+            assert_int_equal(fclose(out), 0);
+            if (!strstr(text, rows[i].text[t]) ||
+                (rows[i].format->by_table && strstr(text, rows[i].text[t]) != text))
+                fail_msg("%s, %zu: found '%s', expected '%s'", rows[i].format->name, t, text,
+                         rows[i].text[t]);
+            free(text);
+        }
+        br_document_clear(&d);
+    }
 }
 
 /* ---- a terminal ---- */

@@ -112,32 +112,29 @@ TEST(test_shared)
     br_scene_clear(&scene);
 }
 
-/* Every allocation fails once. */
-TEST(test_allocations)
+static enum br_status solve_and_project(const void *scene, struct br_error *err)
 {
-    struct br_scene scene = br_test_bundled("example2");
     const struct br_exact_options options = {.tolerance = 1e-4};
     const struct br_exact_quantity part = {BR_BENDING, false, 0};
     const struct br_exact_mesh mesh = {4, 3};
-    enum br_status status = BR_NO_MEMORY;
-    long failures = 0;
-    for (; status; failures++) {
-        struct br_exact *exact = NULL;
-        struct br_exact_state *state = NULL;
-        struct br_exact_projection *projection = NULL;
-        br_allocation_fails_at(failures);
-        status = br_exact_create(&exact, &scene, &options, NULL);
-        if (!status)
-            status = br_exact_state_create(&state, exact, NULL);
-        if (!status)
-            status = br_exact_projection_create(&projection, exact, &part, &mesh, NULL);
-        assert_true(status == BR_OK || status == BR_NO_MEMORY);
-        br_exact_projection_free(projection);
-        br_exact_state_free(state);
-        br_exact_free(exact);
-    }
-    br_allocation_fails_at(-1);
-    assert_true(failures > 50);
+    struct br_exact *exact = NULL;
+    struct br_exact_state *state = NULL;
+    struct br_exact_projection *projection = NULL;
+    enum br_status status = br_exact_create(&exact, scene, &options, err);
+    if (!status)
+        status = br_exact_state_create(&state, exact, err);
+    if (!status)
+        status = br_exact_projection_create(&projection, exact, &part, &mesh, err);
+    br_exact_projection_free(projection);
+    br_exact_state_free(state);
+    br_exact_free(exact);
+    return status;
+}
+
+TEST(test_allocations)
+{
+    struct br_scene scene = br_test_bundled("example2");
+    br_test_without_memory(solve_and_project, &scene, 50);
     br_scene_clear(&scene);
 }
 

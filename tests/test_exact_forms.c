@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference against closed forms: vibrations, loads in x and t, forces and a moment at
- * the tip, sticks; and that it stops when it is told to. */
+ * the tip, sticks; and that it stops when it is told to. Without mass: test_exact_events. */
 #include <gsl/gsl_math.h>
 #include <math.h>
 #include <string.h>
@@ -136,20 +136,6 @@ TEST(test_closed_vibration)
 
 /* ---- loads that depend on x and t at once ---- */
 
-/* u = sin(kx) sin(omega t) */
-TEST(test_forced)
-{
-    const double length = 0.8, k = 5 * M_PI_2 / length, inertia = k * k * 2 - 0.3 * 4 * 4;
-    struct br_scene s = {.length = length, .duration = 2, .density = 0.3};
-    s.axial = (struct br_scene_field){.modelled = true, .stiffness = 2, .viscosity = 0.1};
-    s.axial.load = br_test_load(
-        text_of("sin(%.17g*x)*(%.17g*sin(4*t)+%.17g*cos(4*t))", k, inertia, k * k * 0.1 * 4).s);
-    s.axial.velocity = br_test_function(text_of("4*sin(%.17g*x)", k).s);
-    check_forms(&s, 100, 2,
-                (struct expected[]){{PART, u, text_of("sin(%.17g*x)*sin(4*t)", k), 1e-10},
-                                    {PART, v, text_of("4*sin(%.17g*x)*cos(4*t)", k), 4e-9}});
-}
-
 /* sin(p0 x) (rho g'' + k^2 (a g + c g')), g a pulse of the width p3 around t = 1, rho = 1 */
 static double f_pulse(const double *p, double x, double t)
 {
@@ -237,7 +223,7 @@ TEST(test_examples)
     }
 }
 
-/* ---- creep, without mass ---- */
+/* ---- with mass: u = t^3 sin x and w = t^3 (1 - cos x), loads to fit ---- */
 
 static struct br_scene bare_scene(double density)
 {
@@ -249,57 +235,6 @@ static struct br_scene bare_scene(double density)
         .bending = {.modelled = true, .stiffness = 40, .viscosity = 8},
     };
 }
-
-/* A beam whose tip is held creeps to its static shape in the time c / a; the reaction is there at
- * once. */
-TEST(test_held_creep)
-{
-    static const char shape[] = "3/(48*5)*x^2*(2*x^2-10*x+12)";
-    struct br_scene s = {.length = 2, .duration = 3};
-    s.bending = (struct br_scene_field){.modelled = true, .stiffness = 5, .viscosity = 4};
-    s.bending.load = uniform(3, "1");
-    s.friction = (struct br_friction){BR_TRESCA, 3, 0};
-    check_forms(&s, 100, 3,
-                (struct expected[]){{PART, w, text_of("-%s*expm1(-1.25*t)", shape), 1e-12},
-                                    {PART, w_t, text_of("%s*1.25*exp(-1.25*t)", shape), 1e-11},
-                                    {FRICTION_FORCE, w, text_of("3/8*3*2"), 1e-10}});
-}
-
-/* The solution of q + tau q' = t with q(0) = 0. */
-static struct text creep(double tau)
-{
-    return text_of("(t+%.17g*expm1(-t/%.17g))", tau, tau);
-}
-
-/* Loads that grow like t make the beam creep in its static shape. */
-TEST(test_creep)
-{
-    struct br_scene s = bare_scene(0);
-    const struct text q = creep(8.0 / 40);
-    s.axial.tip_force = br_test_function("3*t");
-    s.bending.tip_force = br_test_function("-2*t");
-    s.bending.tip_moment = br_test_function("0.7*t");
-    check_forms(
-        &s, 20, 2,
-        (struct expected[]){{PART, u, text_of("3/40*x*%s", q.s), 1e-11},
-                            {PART, w, text_of("(-2*x^2*(3.9-x)/6+0.7*x^2/2)/40*%s", q.s), 1e-11}});
-}
-
-/* The same rod pressed against its foundation: one spring more. */
-TEST(test_pressed)
-{
-    struct br_scene s = bare_scene(0);
-    const double spring = 40 / 1.3 + 70;
-    const struct text tip = text_of("%.17g*%s*x/1.3", 3 / spring, creep(8 / 1.3 / spring).s);
-    s.bending.modelled = false;
-    s.axial.tip_force = br_test_function("3*t");
-    s.contact = (struct br_contact){.modelled = true, .gap = 0, .stiffness = 70};
-    check_forms(&s, 20, 2,
-                (struct expected[]){{PART, u, tip, 1e-11},
-                                    {CONTACT_FORCE, u, text_of("70*%s", tip.s), 1e-9}});
-}
-
-/* ---- with mass: u = t^3 sin x and w = t^3 (1 - cos x), loads to fit ---- */
 
 TEST(test_inertia)
 {

@@ -83,6 +83,12 @@ TEST(test_limited_order)
               1e-12);
         assert_true(br_gci_is_far(&g, cases[i].formal) == (cases[i].safety > 2));
     }
+    /* by hand, of 1 + h^3 at h = 0.4, 0.2, 0.1: 3 (0.007/1.001)/7, 1.25 of it, and 3 of it over 3
+     */
+    br_gci((const double[]){.4, .2, .1}, (const double[]){1.064, 1.008, 1.001}, 3, &g);
+    CLOSE(br_gci_limited(&g, 4), 0.002997002997003, 1e-12);
+    CLOSE(br_gci_limited(&g, 3), 0.001248751248751, 1e-12);
+    CLOSE(br_gci_limited(&g, 2), 0.006993006993007, 1e-12);
     br_gci(h, (const double[]){1, 2, 4}, 3, &g);
     IS_NAN(br_gci_limited(&g, 2));
     assert_false(br_gci_is_far(&g, 2));

@@ -230,6 +230,15 @@ TEST(test_left_out)
     assert_int_equal(br_line_order_flag(&found, point, 3), BR_FLAG_OUTLIER);
     assert_int_equal(br_line_order_flag(&found, point, 4), BR_FLAG_NONE);
     CLOSE(found.order.value, 2, 1e-3);
+    for (size_t odd = 1; odd + 1 < ROWS; odd++) { /* each row inside, and no other */
+        make(power, 1, point);
+        point[odd].error *= 5;
+        find(point, ROWS, &found);
+        assert_int_equal(found.outlier, odd);
+        assert_int_equal(found.first, 0);
+        assert_int_equal(found.last, ROWS - 1);
+        CLOSE(found.order.value, 2, 1e-3);
+    }
     make(power, 1, point);
     point[6].error = 0; /* below what can be told */
     point[7].error = 1;
@@ -549,6 +558,41 @@ TEST(test_interval_of_noise)
         const double share = wider * lines_of[l].t / lines_of[l].t99;
         if (!(share >= 0.84 && share <= 1.55)) /* of a 98 % interval 0.68 to 0.83 */
             fail_msg("%zu rows: the 99 %% interval is %g times as wide", lines_of[l].rows, wider);
+    }
+}
+
+/* Rounding makes no interval empty, on neither side. */
+TEST(test_texts_of_intervals)
+{
+    static const struct {
+        struct br_estimate e;
+        const char *order, *interval;
+    } rows[] = {
+        {{2, 1.97, 2.03}, "2.00 [1.97, 2.03]", "2.000 [1.970, 2.030]"},
+        {{3.1623, 3.1612, 3.1634}, "3.162 [3.161, 3.163]", "3.1623 [3.1612, 3.1634]"},
+        {{10, 9.984, 10.016}, "10.00 [9.98, 10.02]", "10.000 [9.984, 10.016]"},
+        {{4.0002, 3.996, 4.0066}, "4.000 [3.996, 4.007]", "4.0002 [3.9960, 4.0066]"},
+        {{2, 1.99999, 2.5}, "2.0000 [1.9999, 2.5000]", "2.00000 [1.99999, 2.50000]"},
+        {{1, 0.9, 1}, "1.00 [0.90, 1.00]", "1.000 [0.900, 1.000]"},
+        {{2, 2, 2}, "2.0000 [1.9999, 2.0001]", "2"},
+    };
+    char text[128];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_string_equal(br_order_text(&rows[i].e, text, sizeof text), rows[i].order);
+        assert_string_equal(br_interval_text(&rows[i].e, text, sizeof text), rows[i].interval);
+    }
+    struct br_test_random random = {3};
+    for (int i = 0; i < 2000; i++) {
+        const double value = br_test_log_uniform(&random, 0.1, 9);
+        const struct br_estimate e = {value, value - br_test_log_uniform(&random, 1e-7, 1),
+                                      value + br_test_log_uniform(&random, 1e-7, 1)};
+        for (int kind = 0; kind < 2; kind++) {
+            double shown, low, high;
+            (kind ? br_interval_text : br_order_text)(&e, text, sizeof text);
+            assert_int_equal(sscanf(text, "%lf [%lf, %lf]", &shown, &low, &high), 3);
+            if (!(low < shown && shown < high))
+                fail_msg("%.9g [%.9g, %.9g] is shown as %s", value, e.low, e.high, text);
+        }
     }
 }
 

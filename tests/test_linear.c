@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The linear solvers one by one: what schemes of more than an Euler step ask of them, their
- * kernels, and what they refuse. That marches by them are right is in test_extreme_marches. */
+ * kernels, what they refuse, and a symmetry to the last bit. That marches by them are right is in
+ * test_extreme_marches. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,16 +73,7 @@ static void march(const struct br_field_solver *f, void *self, const struct prob
         take_step(f, self, p, step);
 }
 
-static double largest(const double *x, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        if (!(fabs(x[i]) <= most)) /* a NaN stays */
-            most = fabs(x[i]);
-    return most;
-}
-
-/* ---- lengths of steps, and states ---- */
+/* ---- lengths of steps, and sizes of states ---- */
 
 /* Walks the registry. */
 #define EACH_SOLVER(s) (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
@@ -133,97 +125,6 @@ TEST(test_step_lengths)
         for (size_t i = 0; br_linear_solvers[i]; i++)
             if (functions(br_linear_solvers[i], &p))
                 check_step_lengths(br_linear_solvers[i], &p);
-    }
-}
-
-static double round_off_of(const struct br_linear_solver *solver, const struct problem *p)
-{
-    const struct br_linear_solver *taken = br_linear_solver_taken(solver, &p->field, 0);
-    return taken->round_off(&p->field);
-}
-
-static void same_to_round_off(const struct br_linear_solver *solver, const void *a, const void *b,
-                              const struct problem *p)
-{
-    double w[2][MOST_SIZE], difference[MOST_SIZE];
-    const size_t size = br_field_size(&p->field);
-    functions(solver, p)->get(a, w[0], NULL);
-    functions(solver, p)->get(b, w[1], NULL);
-    for (size_t i = 0; i < size; i++)
-        difference[i] = w[0][i] - w[1][i];
-    AT_MOST(largest(difference, size), round_off_of(solver, p) * largest(w[1], size));
-}
-
-/* Kept, spoiled and restored: a march goes on with the same bits where nodal values are the state,
- * else to round-off. */
-static void check_keeping(const struct br_linear_solver *solver, const struct problem *p)
-{
-    const struct br_field_solver *f = functions(solver, p);
-    struct br_error err = {0};
-    void *self = created(solver, p), *other = created(solver, p);
-    MUST(f->keep(self, 2, &err));
-    march(f, self, p, 1, 10);
-    march(f, other, p, 1, STEPS);
-    f->combine(self, 2, 1, (double[]){1});
-    double spoilt[MOST_SIZE];
-    for (size_t i = 0; i < MOST_SIZE; i++)
-        spoilt[i] = NAN;
-    f->set(self, spoilt, spoilt);
-    f->combine(self, 1, 3, (double[]){0, 0, 1}); /* state 0 is not finite */
-    f->combine(self, 0, 2, (double[]){0, 1});
-    march(f, self, p, 11, STEPS);
-    same_to_round_off(solver, self, other, p);
-    if (solver == &br_umfpack)
-        same_bits(f, self, other, p);
-    f->free(self);
-    f->free(other);
-}
-
-/* combine(a x + b y) is a combine(x) + b combine(y), and takes part in its own sum. */
-static void check_combining(const struct br_linear_solver *solver, const struct problem *p)
-{
-    const struct br_field_solver *f = functions(solver, p);
-    struct br_error err = {0};
-    void *self = created(solver, p);
-    MUST(f->keep(self, 3, &err));
-    double w[4][MOST_SIZE], v[4][MOST_SIZE];
-    for (size_t j = 0; j < 3; j++) {
-        march(f, self, p, 5 * j + 1, 5 * j + 5);
-        f->get(self, w[j], v[j]);
-        if (j < 2)
-            f->combine(self, j + 1, 1, (double[]){1});
-    }
-    /* states 1, 2: w[0], w[1]; state 0: w[2] */
-    f->combine(self, 0, 3, (double[]){-0.5, 3, 0.25});
-    f->get(self, w[3], v[3]);
-    const size_t size = br_field_size(&p->field);
-    const double tolerance =
-        100 * round_off_of(solver, p) *
-        fmax(largest(w[0], size), fmax(largest(w[1], size), largest(w[2], size)));
-    for (size_t i = 0; i < size; i++) {
-        CLOSE(w[3][i], 3 * w[0][i] + 0.25 * w[1][i] - 0.5 * w[2][i], tolerance);
-        CLOSE(v[3][i], 3 * v[0][i] + 0.25 * v[1][i] - 0.5 * v[2][i], tolerance / p->field.k);
-    }
-    f->combine(self, 0, 3, (double[]){0, 0, 0});
-    double size_of[2];
-    f->size(self, 0, size_of);
-    assert_true(size_of[0] == 0 && size_of[1] == 0);
-    f->free(self);
-}
-
-TEST(test_states)
-{
-    for (uint64_t seed = 1; seed <= 20; seed++) {
-        struct br_test_random r = {seed};
-        const struct problem p = random_problem(&r);
-        for
-            EACH_SOLVER(s)
-            {
-                if (!functions(*s, &p) || !functions(*s, &p)->keep)
-                    continue;
-                check_keeping(*s, &p);
-                check_combining(*s, &p);
-            }
     }
 }
 
@@ -386,6 +287,12 @@ TEST(test_not_finite)
         br_march_free(march);
         br_scene_clear(&scene);
 
+        scene = br_test_bare();
+        scene.bending.tip_moment = br_test_function("1/(1-t)");
+        march = br_test_march(&scene, 3, 1, &method);
+        REFUSED(br_march_step(march, &err), BR_NOT_FINITE, "the tip moment is inf at t = 1 s");
+        br_march_free(march);
+        br_scene_clear(&scene);
         scene = br_test_bare(); /* unstable: the lagged contact, without viscosity */
         scene.duration = 1000;
         scene.axial.viscosity = 0;
@@ -402,55 +309,60 @@ TEST(test_not_finite)
     }
 }
 
-/* ---- kernels ---- */
+/* ---- symmetry ---- */
 
-enum { KERNEL_MOST = 347, KERNEL_STEPS = 25 };
-
-/* Nodal displacements and velocities at the end; returns the values of each. */
-static size_t march_by(const struct br_method *method, enum br_field_kind kind, size_t n,
-                       double value[2][2 * (KERNEL_MOST + 1)])
+/* A rigid motion has no curvature, to the last bit where it is a binary number. */
+TEST(test_rigid_motion)
 {
-    struct br_scene scene = br_test_bundled("initial_data");
-    struct br_march *march = br_test_march(&scene, n, KERNEL_STEPS, method);
-    br_test_advance(march, KERNEL_STEPS);
-    br_march_get(march, kind, value[0], value[1]);
-    const size_t size = br_field_size(br_march_field(march, kind));
-    br_march_free(march);
-    br_scene_clear(&scene);
-    return size;
+    double curvature[2];
+    br_curvature((const double[]){0.75, 0.5, 1.25, 0.5}, curvature);
+    assert_true(curvature[0] == 0 && curvature[1] == 0);
+    br_curvature((const double[]){0, 0, 0.5, 1}, curvature); /* xi^2 / 2 */
+    assert_true(curvature[0] == 1 && curvature[1] == 0);
+    br_curvature((const double[]){0, 0, 1, 3}, curvature); /* xi^3: 6 xi = 3 + 3 (2 xi - 1) */
+    assert_true(curvature[0] == 3 && curvature[1] == 3);
 }
 
-static void compare_kernel(const struct br_kernel *kernel, const char *scheme,
-                           enum br_field_kind kind, size_t n)
+/* Nodal values of two marches of the same mesh, the second times `factor`, bit for bit. */
+static void assert_same_bits(const struct br_march *a, const struct br_march *b,
+                             enum br_field_kind kind, double factor)
 {
-    double ours[2][2 * (KERNEL_MOST + 1)], plain[2][2 * (KERNEL_MOST + 1)];
-    struct br_method method = br_test_method("plain", "implicit", NULL);
-    method.scheme = br_time_scheme_find(scheme);
-    const size_t size = march_by(&method, kind, n, plain);
-    method.solver = &br_riccati;
-    method.kernel = kernel;
-    assert_int_equal(march_by(&method, kind, n, ours), size);
-    for (int rate = 0; rate < 2; rate++) {
-        double most = 0;
-        for (size_t i = 0; i < size; i++)
-            most = fmax(most, fabs(plain[rate][i]));
-        for (size_t i = 0; i < size; i++)
-            if (!(fabs(ours[rate][i] - plain[rate][i]) <= 1e-10 * most))
-                fail_msg("kernel %s, %s, field %d, n = %zu: value %zu is off by %g", kernel->name,
-                         scheme, kind, n, i, (ours[rate][i] - plain[rate][i]) / most);
-    }
+    double w[2][MOST_SIZE], v[2][MOST_SIZE];
+    br_march_get(a, kind, w[0], v[0]);
+    br_march_get(b, kind, w[1], v[1]);
+    for (size_t i = 0; i < br_field_size(br_march_field(a, kind)); i++)
+        assert_true(w[0][i] == factor * w[1][i] && v[0][i] == factor * v[1][i]);
 }
 
-/* Every kernel that the machine has, on meshes that fill its lanes once, more often, and in part.
- */
-TEST(test_kernels)
+/* The transverse load turned round: the solution turned round, to the last bit. */
+TEST(test_mirrored)
 {
-    static const size_t n[] = {16, 37, 100, KERNEL_MOST};
-    static const char *const schemes[] = {"euler", "bdf2", "esdirk4"};
-    for (const struct br_kernel *const *k = br_kernels; *k; k++)
-        for (size_t i = 0; i < 12 && (*k)->available(); i++)
-            for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-                compare_kernel(*k, schemes[i / 4], kind, n[i % 4]);
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        for (size_t rule = 0; br_friction_rules[rule]; rule++) {
+            struct br_method method = br_method_default();
+            method.solver = *s;
+            method.friction = br_friction_rules[rule];
+            struct br_scene scene[2];
+            struct br_march *march[2];
+            for (int i = 0; i < 2; i++) {
+                scene[i] = br_test_bundled("example2");
+                br_function_free(&scene[i].bending.load.term[0].time);
+                scene[i].bending.load.term[0].time = br_test_function("2000*sin(9*t)");
+                scene[i].bending.load.term[0].space.constant = i ? -1 : 1;
+                scene[i].friction.regularisation = 1e-3;
+                march[i] = br_test_march(&scene[i], 17, 100, &method);
+                br_test_advance(march[i], 100);
+            }
+            assert_same_bits(march[0], march[1], BR_BENDING, -1);
+            assert_same_bits(march[0], march[1], BR_AXIAL, 1);
+            assert_true(br_march_tip(march[0])->friction_force ==
+                        -br_march_tip(march[1])->friction_force);
+            assert_true(fabs(br_march_tip(march[0])->friction_force) > 0);
+            for (int i = 0; i < 2; i++) {
+                br_march_free(march[i]);
+                br_scene_clear(&scene[i]);
+            }
+        }
 }
 
 /* ---- kernels that are asked for ---- */

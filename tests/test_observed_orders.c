@@ -123,6 +123,11 @@ TEST(test_remarks)
               "not measurable: the errors fall with the orders 0.19, 0.22, 0.21 from row to row");
     expect_of((const double[]){8, 6, 3.6, 2}, 0.93, "agrees with theory"); /* 0.42, 0.74, 0.85 */
     expect_of((const double[]){8, 4.757, 2.72, 1.483}, 0.81, "not settled, but comes closer: 0.75");
+    /* by the first and the last of them */
+    expect_of((const double[]){8.0000, 4.9246, 3.0314, 1.6818}, NAN,
+              "but comes closer: 0.70, 0.70");
+    expect_of((const double[]){8.0000, 4.9246, 2.7321, 1.5157}, NAN,
+              "but comes closer: 0.70, 0.85");
     expect_of((const double[]){8, 4.9, 3, 1.83}, 0.71, "below theory: 0.71, 0.71, 0.71");
     expect_of((const double[]){8, 2, 0.5, 0.125}, 2, "above theory: 2.00, 2.00, 2.00");
     expect_of((const double[]){8, 4.1124, 2.114, 1.0867}, 0.96, "agrees with theory");

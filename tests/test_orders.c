@@ -9,6 +9,7 @@
 #include "base/load.h"
 #include "base/words.h"
 #include "checks.h"
+#include "orders/line/line_order.h"
 #include "orders/request.h"
 
 static struct br_error err;
@@ -93,6 +94,22 @@ TEST(test_names_and_units)
     assert_null(n.quantity[1].unit);
     assert_true(isnan(n.row[2].number[0])); /* an empty field */
     assert_int_equal(n.row[0].line, 3);     /* the heading has two lines */
+    br_numbers_clear(&n);
+}
+
+/* The unit is what stands in the last brackets. */
+TEST(test_units_behind_brackets)
+{
+    struct br_numbers n = read_with(
+        "h,u(x) (m),u[y] [m/s],e (max) [mm],v [x] (s)\n1,4,3,4,2\n.5,2,2,2,1\n.25,1,1,1,.5\n",
+        &plain);
+    static const char *const is[][2] = {
+        {"u(x)", "m"}, {"u[y]", "m/s"}, {"e (max)", "mm"}, {"v [x]", "s"}};
+    assert_int_equal(n.quantities, 4);
+    for (size_t i = 0; i < 4; i++) {
+        assert_string_equal(n.quantity[i].name, is[i][0]);
+        assert_string_equal(n.quantity[i].unit, is[i][1]);
+    }
     br_numbers_clear(&n);
 }
 
@@ -251,9 +268,7 @@ static const struct {
      "\u2502 .25 \u2506 .1 \u2506 1 \u2502\n",
      "h1", 1, "h from column h; errors: l2, h1; left aside: line 1 'shape: (3, 3)' (title)", NULL},
     {"# A tibble: 3 x 2\n     h    l2\n <dbl> <dbl>\n1 1 1.6\n2 .5 .4\n3 .25 .1\n", "l2", 2,
-     "h from column h; errors: l2; left aside: column 1 (a count); line 1 'A tibble: 3 x 2' "
-     "(comment)",
-     NULL},
+     "h from column h; errors: l2; left aside: column 1 (a count)", NULL},
     /* a title above a heading that is a comment; sizes of three digits beside a level */
     {"Table: Error\n  #Level  h  ||u-u_h||\n\n 0 3.12e-2 1.6\n 1 1.56e-2 .4\n 2 7.81e-3 .1\n",
      "||u-u_h||", 2,
@@ -268,9 +283,7 @@ static const struct {
      "h from column Gitterweite; errors: Fehler; left aside: Elemente (a count)", "Gitterweite=h"},
     {"8 1.6\n16 .4\n32 .1\n", "l2", 2, "h = 1/n from column 1; errors: l2", "1=n, 2=l2"},
     {"# name: A\n# rows: 3\n# columns: 2\n 1 16\n .5 4\n .25 1\n", "2", 2,
-     "h from column 1; errors: 2; left aside: line 1 'name: A', line 2 'rows: 3', line 3 "
-     "'columns: 2' (comment)",
-     "1=h"},
+     "h from column 1; errors: 2", "1=h"},
     {"mesh,e\n8x8,1.6\n16x16,.4\n32\xc3\x97"
      "32,.1\n",
      "e", 2, "h = 1/n from column mesh; errors: e", "mesh=n"},
@@ -576,6 +589,18 @@ static const char *table_of(int meshes, int steps, double p, double q)
     return text;
 }
 
+/* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
+static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
+    for (int i = 0; i < meshes; i++)
+        for (int j = 0; j < steps; j++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n",
+                                     pow(2, -i), pow(2, -j), f(pow(2, -i), pow(2, -j)));
+    return text;
+}
+
 /* What was found last. */
 static struct {
     struct br_numbers numbers;
@@ -775,6 +800,30 @@ TEST(test_corners_of_a_floor)
     assert_true(left_out > 0);
 }
 
+static double larger_of_both(double h, double k)
+{
+    return fmax(h * h, k * k);
+}
+
+/* What stays along one axis alone is no floor, and what the other axis shows is no reason to leave
+ * a row out. */
+TEST(test_plateau_along_one_axis)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        find(grid_of(turned ? 6 : 10, turned ? 10 : 6, larger_of_both), NULL);
+        const struct br_quantity_orders *of = &found.orders.of[0];
+        assert_false(br_joint_describes(&of->joint));
+        for (size_t row = 0; row < found.numbers.rows; row++)
+            for (int axis = 0; axis < BR_AXES; axis++) {
+                const struct br_row_point *at = &of->point[axis][row];
+                const double *z = found.numbers.row[row].z;
+                if (fabs(log2(z[0] / z[1])) > 1.5 && at->line->observed.point[at->index].flag)
+                    fail_msg("%d: h = %g, k = %g: %s", turned, z[0], z[1],
+                             br_flag_name(at->line->observed.point[at->index].flag));
+            }
+    }
+}
+
 TEST(test_floors)
 {
     find(floor_table(12, pow(4, -7)), NULL); /* 6e-5: no round-off */
@@ -900,6 +949,9 @@ TEST(test_finer)
     find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n.0625,\n", "u");
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find("h,e\n1,1.01\n.5,.26\n.25,.0725\n.125,.025625\n.0625,.01390625\n", NULL); /* h^2 + .01 */
+    assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
+    find("h,e\n1,.999\n.5,.249\n.25,.0615\n.125,.014625\n.0625,.00290625\n", NULL); /* h^2 - .001 */
+    assert_string_equal(found.orders.of[0].line[0].observed.law, br_law_text(BR_LAW_OFFSET));
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
     find(floor_table(12, pow(4, -7)), NULL); /* its rows are left out */
     assert_null(br_orders_forecast_of(&found.orders, &found.orders.of[0]).line);
@@ -1037,7 +1089,10 @@ TEST(test_grammar)
     refuse_expectation("l2: h 2 +- .1, k two", "found 'two', expected an order above 0");
     refuse_expectation("l2: h <= 2", "errors that do not fall have an order below any limit");
     refuse_expectation("l2: h >= 0", "expected an order above 0");
-    refuse_expectation("l2: h >= 1.8 +- .1", "found '+- .1', expected ',' or ';' or the end");
+    refuse_expectation("l2: h >= 1.8 +- .1",
+                       "found '+- .1', expected nothing: a least order has no tolerance");
+    refuse_expectation("l2 >= 1.8 \u00b1 .1", "a least order has no tolerance");
+    refuse_expectation(">= 1.8 +- .1", "a least order has no tolerance");
     refuse_expectation("l2: h exponential >= 1", "expected a factor above 1");
     refuse_expectation("l2: h >= 1.8, at most 3", "it belongs to one order");
     refuse_expectation("l2: h 2, constant 3 to 2",
@@ -1138,6 +1193,10 @@ TEST(test_advice)
          "the coarse ones are beyond a limit of stability"},
         {"n,e\n8,.1\n16,.04\n32,.022\n64,.04\n128,.003\n", NULL, "e: h 2 +- 0.1",
          "the errors rise and fall: converge each run further"},
+        {"n,e\n8,.1\n16,.025\n32,.00625\n64,.0015625\n128,.001\n", NULL, "2",
+         "expect the order 'down to 4e-03', and add 1 coarser than n = 8"},
+        {"n,e\n8,.1\n16,.025\n32,.00625\n64,.0015625\n128,.0004\n", NULL, "2 down to 7e-3",
+         "add a row coarser than n = 8"},
         {"n,e\n8,1.31\n16,.92\n32,1.22\n64,.85\n128,1.3\n", "e", "e: h 2 +- 0.1",
          "the differences rise and fall: converge each run further"},
         {"n,e\n8,1\n16,1.1\n32,1.3\n64,1.7\n128,2.5\n", "e", "e: h 2 +- 0.1",
@@ -1149,18 +1208,6 @@ TEST(test_advice)
         if (!strstr(why, rows[i].says))
             fail_msg("%zu: %s", i, why);
     }
-}
-
-/* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
-static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
-{
-    static char text[MOST_TEXT];
-    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
-    for (int i = 0; i < meshes; i++)
-        for (int j = 0; j < steps; j++)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n",
-                                     pow(2, -i), pow(2, -j), f(pow(2, -i), pow(2, -j)));
-    return text;
 }
 
 static double of_time_alone(double h, double k)
@@ -1427,9 +1474,15 @@ TEST(test_verdicts)
                                    "6,3.815e-6\n7,4.768e-7\n";
     static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n",
                       two[] = "h,Eh,eH\n1,4,4\n.5,1,1\n.25,.25,.25\n.125,.0625,.0625\n";
-    char line[1024], grid[4096], floor[4096];
+    static const char cases[] = "m,n,l2\nA,1,1\nA,2,.25\nA,4,.0625\nA,8,.015625\nB,1,1\nB,2,.5\n"
+                                "B,4,.25\nB,8,.125\nB,16,.0625\n";
+    /* the run of the finest size failed */
+    static const char lost[] = "h,l2\n4,16\n2,4\n1,1\n.5,.25\n.25,.0625\n.125,.015625\n.0625,inf\n";
+    char line[1024], grid[4096], floor[4096], blown[4096];
     strcpy(line, table_of(5, 0, 2, 0));
     strcpy(grid, table_of(5, 5, 2, 1));
+    strcpy(blown, grid);
+    strcpy(strrchr(blown, ',') + 1, "nan\n");
     strcpy(floor, floor_table(12, pow(4, -7)));
     const struct {
         const char *table, *values, *expected;
@@ -1448,6 +1501,12 @@ TEST(test_verdicts)
         {gap, NULL, "l2: h 3 +- 0.1", BR_FAIL, ""},
         {gaps, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE,
          "3 of 5 errors can be used, an order needs 4"},
+        {lost, NULL, ">= 1.8", BR_INCONCLUSIVE, "the finest row, h = 0.0625, has no number"},
+        {lost, NULL, "2.5 +- 0.1", BR_FAIL, ""},
+        {cases, NULL, "l2 [m = A] = 2", BR_PASS, ""}, /* it has no row n = 16 */
+        {lost, "l2", "2", BR_INCONCLUSIVE, "h = 0.0625, has no number; without it the others"},
+        {blown, NULL, "h 2", BR_INCONCLUSIVE, "the finest row, h = 0.03125, k = 0.03125, has no"},
+        {blown, NULL, "k 1", BR_INCONCLUSIVE, "the finest row, h = 0.03125, k = 0.03125, has no"},
         {floor, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "the errors do not fall"},
         {floor, NULL, "l2: h 2 +- 0.1 down to 1e-3", BR_PASS, ""},
         {floor, NULL, "l2: h 3 +- 0.1 down to 1e-3", BR_FAIL, ""},

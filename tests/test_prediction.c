@@ -207,73 +207,7 @@ TEST(test_late_loads)
     assert_int_equal(dear.below, dear.known);
 }
 
-/* ---- scenes drawn at random, against a march by a tolerance ---- */
-
-static const char *const loads[] = {"1", "t", "sin(3*t)", "exp(t) - 1", "x*cos(2*t)", "1 - x*t"};
-enum { LOADS = sizeof loads / sizeof *loads };
-
-static void draw_load(struct br_test_random *r, double scale, struct br_load *load)
-{
-    char text[64];
-    snprintf(text, sizeof text, "%.17g*(%s)", scale * br_test_uniform(r, -1, 1),
-             loads[br_test_index(r, LOADS)]);
-    *load = br_test_load(text);
-}
-
-/* Relaxation times and periods from far below the duration to above it. */
-static struct br_scene draw(struct br_test_random *r)
-{
-    struct br_scene s = br_test_bare();
-    s.duration = br_test_log_uniform(r, 0.5, 4);
-    s.density = br_test_log_uniform(r, 1e-4, 10);
-    s.axial.stiffness = br_test_log_uniform(r, 10, 1000);
-    s.axial.viscosity = s.axial.stiffness * br_test_log_uniform(r, 1e-3, 1);
-    s.bending.stiffness = br_test_log_uniform(r, 10, 1000);
-    s.bending.viscosity = s.bending.stiffness * br_test_log_uniform(r, 1e-3, 1);
-    draw_load(r, s.axial.stiffness, &s.axial.load);
-    draw_load(r, s.bending.stiffness, &s.bending.load);
-    s.contact.modelled = br_test_index(r, 3) > 0;
-    s.contact.gap = br_test_uniform(r, 0, 0.2);
-    s.contact.stiffness = s.axial.stiffness * br_test_log_uniform(r, 0.01, 1);
-    s.friction.law = (enum br_friction_law)br_test_index(r, s.contact.modelled ? 3 : 2);
-    s.friction.coefficient = s.bending.stiffness * br_test_log_uniform(r, 0.01, 1);
-    return s;
-}
-
-TEST(test_random)
-{
-    enum { SCENES = 30 };
-    static const char *const methods[] = {"euler+lagged", "euler+implicit", "bdf2", "trbdf2",
-                                          "esdirk3"};
-    struct br_test_random r = {20061};
-    struct br_named_method adaptive;
-    struct br_error err = {0};
-    MUST(br_named_method_read("adaptive", &adaptive, &err));
-    adaptive.method.tolerance = 1e-8;
-    struct tally t = {0};
-    for (int i = 0; i < (br_test_quick() ? 3 : SCENES); i++) {
-        struct br_scene scene = draw(&r);
-        const size_t n = 1 + (size_t)br_test_log_uniform(&r, 1, 500);
-        const size_t k = 1 + (size_t)br_test_log_uniform(&r, 1, 600);
-        const struct br_study shape = {
-            .n_count = 1,
-            .k_count = 1,
-            .n = &n,
-            .steps = &k,
-            .reference_kind = &br_reference_fine,
-            .reference_method = adaptive.method,
-            .reference = {n * (4 + 400 / n), k},
-        };
-        measure(&t, &scene, methods[br_test_index(&r, 5)], &shape, 0);
-        br_load_clear(&scene.axial.load);
-        br_load_clear(&scene.bending.load);
-    }
-    show("random scenes", &t);
-    AT_MOST(0.8 * t.known, t.within_3);
-    AT_MOST(0.95 * t.known, t.within_10);
-    AT_MOST(0.98 * t.known, t.below);
-    assert_int_equal(t.far_too_low, 0);
-}
+/* ---- what no march beforehand sees ---- */
 
 static struct br_prediction predict(const struct br_scene *scene, const struct br_method *method,
                                     size_t n, size_t k)

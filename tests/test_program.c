@@ -355,10 +355,10 @@ static const char talking[] =
 TEST(test_places)
 {
     static const double list[] = {4, 8, 16, 32};
-    const char *const read[][2] = {{"last", "last:err=(.*)"},
+    const char *const read[][2] = {{"dofs", "dofs (.*)"}, /* the size before all numbers */
+                                   {"last", "last:err=(.*)"},
                                    {"complaint", "stderr:err=(.*)"},
-                                   {"file", "file:d/out_{level}.json:json:/e"},
-                                   {"dofs", "dofs (.*)"}};
+                                   {"file", "file:d/out_{level}.json:json:/e"}};
     write_script("talking", talking);
     struct br_orders_request p = br_orders_request_default();
     for (size_t i = 0; i < 4; i++)

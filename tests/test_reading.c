@@ -112,11 +112,15 @@ static const struct {
      "N|error|\n10|1e-2|\n20|2e-3|\n1 title\n"},
     {"Convergence study, 2026\nh,e\n1,16\n.5,4\n", "h|e|\n1|16|\n.5|4|\n1 title\n"},
     {"l2\nscalar\nN e EOC\n8 1 -\n16 .2 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n1 title\n2 title\n"},
-    {"# run 7\nh,e\n# fine\n1,16\n.5,4\n#\n", "h|e|\n1|16|\n.5|4|\n1 comment\n3 comment\n"},
-    {"# name: A\n# columns: 2\n1 16\n.5 4\n", "~|~|\n1|16|\n.5|4|\n1 comment\n2 comment\n"},
+    {"# run 7\nh,e\n# fine\n1,16\n.5,4\n#\n", "h|e|\n1|16|\n.5|4|\n"},
+    {"h,e\n1,16\n# so far\n#.7,8\n.5,4\n# end\n",
+     "h|e|\n1|16|\n.5|4|\n3 comment\n4 comment\n6 comment\n"},
+    {"# name: A\n# columns: 2\n1 16\n.5 4\n", "~|~|\n1|16|\n.5|4|\n"},
     {"|N|e|EOC|\n|8|1|-|\n|16|.2|2.0|\n|Overall|---|2.0|\n",
      "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 summary\n"},
     {"N e EOC\n8 1 -\n16 .2 2.0\nOverall EOC is 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 footer\n"},
+    {"n,e\n10,1\n20,.2\n40,.04\nall is well\n", "n|e|\n10|1|\n20|.2|\n40|.04|\n5 footer\n"},
+    {"n e\n10 1\n20 .2\n40 .04\nOverall 2.0\n", "n|e|\n10|1|\n20|.2|\n40|.04|\n5 summary\n"},
     {"n,e\n10,1\n20,.2\nmean,3e-3\nstd,1\n", "n|e|\n10|1|\n20|.2|\n4 summary\n5 summary\n"},
     {"n,e\n10,1\n20,.2\nmean,15,.6\n", "n|e|\n10|1|\n20|.2|\n4 footer\n"},
     {"n,e\n10,1\n20,.2\nmean,15,.6\nmax,20,1\n", ":t:5: found 'max,20,1' between or beside"},
@@ -177,7 +181,13 @@ static const struct {
      ":t:3: found 'failed' between or beside the rows of lines 2 to 2"},
     {"8 1\n16 .2\n\n\n8 2\n16 1\n", ":t:5: the rows begin again as on line 1"},
     {"n,e\n8,1\n16,.2\n# P2\n8,2\n", ":t:5: the rows begin again as on line 2"},
-    {"Error for n=10 is 0.1\nError for n=20 is 0.02\n", ":t:1: found no row of numbers"},
+    {"Error for n=10 is 0.1\nError for n=20 is 0.02\n", "n|is|\n10|0.1|\n20|0.02|\n"},
+    {"See 4 for h=1: 5\nSo 2 of h=3: 7\n", ":t:2: found 'So=2', expected 'See = ...'"},
+    {"[a] 2024-03-01 12:00:01 step size 0.1 error 3\n[b] 2024-03-01 12:00:02 step size 0.05 error 1",
+     "step size|error|\n0.1|3|\n0.05|1|\n"},
+    {"h,1/2,1/4,1/8\nL2,3,2,1\nrate,,1,1\n", "h|L2|rate|\n1/2|3||\n1/4|2|1|\n1/8|1|1|\n"},
+    {"a,1/2,1/4,1/8\nL2,3,2,1\n", "~|~|~|~|\na|1/2|1/4|1/8|\nL2|3|2|1|\n"},
+    {"h,1/2,1/4,1/8\nL2,3,2,some\n", "~|~|~|~|\nh|1/2|1/4|1/8|\nL2|3|2|some|\n"},
     {"n,e,,n,e\n8,1,,8,2\n16,.2,,16,1\n", ":t:1: found an empty column 3 between others"},
     {"{\"a\":[{\"h\":1}],\"b\":[{\"h\":2}]}", ":t: found several tables"},
     {"{\"a\":{\"0\":1,\"1\":2},\"b\":{\"1\":1,\"0\":2}}", ":t: found columns with other rows"},
@@ -315,6 +325,28 @@ TEST(test_numbers)
             fail_msg("'%s': found %d: %.17g +- %g, expected %.17g +- %g", numbers[i].text,
                      is_number, found.value, found.deviation, numbers[i].value,
                      numbers[i].deviation);
+    }
+}
+
+/* Each upright line of a box is a bar, and each level one none. */
+TEST(test_boxes)
+{
+    static const char *const bars[] = {"\u2502", "\u2503", "\u2506", "\u2507", "\u250a",
+                                       "\u250b", "\u254e", "\u254f", "\u2551"};
+    for (size_t i = 0; i < sizeof bars / sizeof *bars; i++) {
+        const char *const b = bars[i];
+        char text[200];
+        struct br_fields f;
+        struct br_error err;
+        snprintf(text, sizeof text, "%sn%se%s\n\u2550\u2550\u2500\n%s10%s1%s\n%s20%s.2%s\n", b, b,
+                 b, b, b, b, b, b, b);
+        MUST(br_fields_read(text, "t", NULL, &f, &err));
+        assert_int_equal(f.columns, 2);
+        assert_int_equal(f.rows, 2);
+        assert_string_equal(f.heading[0], "n");
+        assert_string_equal(f.field[3], ".2");
+        assert_int_equal(f.lefts, 0);
+        br_fields_clear(&f);
     }
 }
 

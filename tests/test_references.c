@@ -3,7 +3,7 @@
  * it). On every bundled scene they must agree about the tip within their error bars. */
 #include <math.h>
 
-#include "reference/exact/exact.h"
+#include "exact_scenes.h"
 #include "solver/scene.h"
 #include "study/grid/sweep.h"
 #include "support.h"
@@ -58,19 +58,12 @@ static void run_fine(const struct meeting *m, const struct br_scene *scene,
 
 static void solve_exactly(const struct br_scene *scene, struct verdict verdict[2])
 {
-    struct br_error err = {0};
-    struct br_exact *exact;
-    struct br_exact_state *state;
-    MUST(br_exact_create(&exact, scene, NULL, &err));
-    MUST(br_exact_state_create(&state, exact, &err));
-    br_exact_at(exact, scene->duration, state);
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const enum br_field_kind field = kind;
-        verdict[kind] = (struct verdict){state->tip[field].displacement,
-                                         br_exact_report(exact, field).error.displacement};
-    }
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    struct solved s = solve(scene, 1e-10);
+    br_exact_at(s.exact, scene->duration, s.state);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        verdict[kind] = (struct verdict){s.state->tip[kind].displacement,
+                                         br_exact_report(s.exact, kind).error.displacement};
+    release(&s);
 }
 
 TEST(test_agreement)

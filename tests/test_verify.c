@@ -60,6 +60,8 @@ TEST(test_whole)
                    "    contact: implicit\n"
                    "    friction: regularised\n"
                    "    l2: 1 +- 0.05, at most 3e-4 m^(3/2)\n"
+                   "    l2 axial: 2 +- 0.05\n" /* the total has the lower order */
+                   "    l2 bending: 1 +- 0.05\n"
                    "    tip axial: 1.5+-0.25, constant 1e-5 to 2e-5 m\n",
                    &scene, &v, &err));
     assert_false(v.by_default);
@@ -84,8 +86,8 @@ TEST(test_whole)
     assert_string_equal(time->method.friction->name, "regularised");
     assert_ptr_equal(time->method.scheme, br_time_schemes[0]);
     assert_int_equal(time->method.axial_degree, 1);
-    assert_int_equal(time->expectations, 2);
-    const struct br_verify_expectation *l2 = &time->expectation[0], *tip = &time->expectation[1];
+    assert_int_equal(time->expectations, 4);
+    const struct br_verify_expectation *l2 = &time->expectation[0], *tip = &time->expectation[3];
     assert_ptr_equal(l2->norm, &br_norm_l2);
     assert_int_equal(l2->part, BR_PART_TOTAL);
     CLOSE(l2->band.order, 1, 0);
@@ -97,6 +99,8 @@ TEST(test_whole)
     assert_int_equal(tip->part, BR_PART_AXIAL);
     CLOSE(tip->band.floor, 1e-5, 0);
     CLOSE(tip->band.ceiling, 2e-5, 0);
+    size_t line;
+    MUST(br_verify_check(&scene, &v, &line, &err));
     br_verify_clear(&v);
     br_scene_clear(&scene);
 }

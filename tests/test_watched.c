@@ -591,7 +591,7 @@ TEST(test_refusals)
     finish(&w);
 }
 
-/* ---- the sums of a whole march: those of vibrations are seen by tests/lab/test_energy.c ---- */
+/* ---- the sums of a whole march ---- */
 
 /* Each term of the sums of a whole march is needed; a NaN in one is seen. */
 TEST(test_every_term)

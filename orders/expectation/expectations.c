@@ -69,6 +69,11 @@ enum br_status br_expectation_check(const struct br_expectation *e, struct br_er
                    e->order, e->tolerance, e->down_to);
 }
 
+static bool is_tolerance(const char *at)
+{
+    return br_skip_word(at, "+-") || br_skip_word(at, "\u00b1");
+}
+
 /* "2 to 4 +- 0.1", "2", ">= 1.8" */
 static enum br_status take_band(const char **at, struct br_expectation *e, struct br_error *err)
 {
@@ -81,7 +86,8 @@ static enum br_status take_band(const char **at, struct br_expectation *e, struc
             *at, e->exponential ? "a factor above 1" : "an order above 0, perhaps behind h or k",
             err);
     if (least)
-        return BR_OK;
+        return is_tolerance(*at) ? refuse(*at, "nothing: a least order has no tolerance", err)
+                                 : BR_OK;
     if (takes(at, "to") && !take_number(at, e->order, INFINITY, &e->highest))
         return refuse(*at, "an order above the first", err);
     e->tolerance = e->order / 10;
@@ -137,13 +143,15 @@ enum br_status br_expectation_read(const char **at, const char *unit, enum br_ax
 
 enum { MOST = 2000 }; /* more than two for each column of a table */
 
-/* Whether an order stands there, and nothing else before the next one. */
+/* Whether an order stands there, and nothing else before the next one; also ">= 2 +- 0.1", which
+ * is refused where it is read. */
 static bool is_order(const char *at)
 {
     struct br_error ignored = {0};
     struct br_expectation e = {0};
     enum br_axis axis;
-    return !br_expectation_read(&at, "", &axis, &e, &ignored) && (!*at || strchr(",;", *at));
+    const bool reads = !br_expectation_read(&at, "", &axis, &e, &ignored);
+    return reads ? !*at || strchr(",;", *at) : is_tolerance(at);
 }
 
 /* Takes "l2:", or "l2 =", or "l2" before ">= 1.8", or nothing where an order stands. In quotes a
@@ -283,6 +291,27 @@ static struct br_case *add_case(struct br_check *check)
     return &check->cases[check->count++];
 }
 
+/* No order passes where the finest run failed, unless a window leaves that out. The rows are
+ * sorted, so the last one of the finest size has the finest other size. */
+static void need_finest(const struct br_numbers *n, size_t quantity, enum br_axis axis,
+                        struct br_case *c)
+{
+    const struct br_numbers_row *finest = NULL;
+    char name[BR_CELL_NAME];
+    for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++)
+        if (!(row->absent && row->absent[quantity]) && row->out[quantity] != BR_FLAG_BY_HAND &&
+            (!finest || row->z[axis] <= finest->z[axis]))
+            finest = row;
+    if (c->verdict != BR_PASS || (!finest->failure && isfinite(finest->number[quantity])))
+        return;
+    br_numbers_name_cell(n, finest, name);
+    c->verdict = BR_INCONCLUSIVE;
+    snprintf(c->reason, sizeof c->reason,
+             "the finest row, %s, %s%.300s; without it the others pass (--without leaves it out)",
+             name, finest->failure ? "failed: " : "has no number",
+             finest->failure ? finest->failure : "");
+}
+
 /* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
 enum br_status br_orders_decide(const struct br_orders *o, const struct br_quantity_orders *of,
                                 const struct br_order_expectation *e, struct br_check *check,
@@ -309,6 +338,7 @@ enum br_status br_orders_decide(const struct br_orders *o, const struct br_quant
         br_case_take_order(c, answer->order, NAN);
     c->open = answer->open;
     br_case_decide(c);
+    need_finest(o->numbers, of->quantity, e->axis, c);
     if (isnan(c->order.value)) /* of too few errors for a verdict */
         c->order = answer->order;
     return BR_OK;

@@ -347,6 +347,21 @@ static void conclude_growth(struct br_case *c, const struct br_point *from)
                                             : "an explicit scheme whose time step stays");
 }
 
+/* Enough errors must be left above that. */
+static void advise_down_to(struct br_case *c, double error)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < c->points; i++)
+        left += c->point[i].used && c->point[i].error > error;
+    br_append(c->reason, sizeof c->reason,
+              ": if that is round-off, or the reference's own error, expect the order 'down to "
+              "%.0e'",
+              error);
+    if (left < BR_VERIFY_LEAST_POINTS)
+        br_append(c->reason, sizeof c->reason, ", and add %d coarser than %s",
+                  BR_VERIFY_LEAST_POINTS - (int)left, c->point[0].label);
+}
+
 static void decide_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
@@ -369,10 +384,7 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
     if (below)
         br_append(c->reason, sizeof c->reason, ": finer grids would show whether terms cancel");
     else if (c->may_miss)
-        br_append(c->reason, sizeof c->reason,
-                  ": if that is round-off, or the reference's own error, expect the order 'down to "
-                  "%.0e'",
-                  4 * first->error);
+        advise_down_to(c, 4 * first->error);
     else
         br_append(c->reason, sizeof c->reason,
                   ": this is another solution, or the reference's own error; errors of coarser "
@@ -384,7 +396,8 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
 static void name_row(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
-    const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
+    const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE ||
+                      last->error <= c->expected.down_to;
     if (c->window && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; leave out fewer rows");
     else if (c->may_miss && !c->open && !trend_of(c).stays)

@@ -664,6 +664,8 @@ static void describe(struct search *s, const struct candidate *c, struct br_join
     static const double most_scatter = 0.3, most_structure = 1;
     static const double round_off = 1e-24; /* a mean square below this */
     const struct br_joint_trial *t = &c->trial;
+    const double as_99 =
+        gsl_cdf_tdist_Pinv(0.995, t->freedom) / gsl_cdf_tdist_Pinv(0.975, t->freedom);
     double mean = 0, total = 0, value[BR_UNKNOWNS];
     in_units(s, t, value);
     look_at(s, c->window);
@@ -685,8 +687,9 @@ static void describe(struct search *s, const struct candidate *c, struct br_join
         if (t->law.of[a]) /* its deviation is that of the error at the coarsest size */
             fit->c[a].low = fit->c[a].high = NAN;
         e = fit->order[a] = estimate(c, has, value[ORDER(a)], ORDER(a));
-        fit->low99[a] = e.low;
-        fit->high99[a] = e.high;
+        const double half = as_99 * (e.high - e.value);
+        fit->low99[a] = e.value - half;
+        fit->high99[a] = e.value + half;
         fit->share[a] = br_joint_share(&s->used, a);
         fit->law[a] = has && t->law.of[a] ? br_law_text(t->law.of[a]->law) : NULL;
     }

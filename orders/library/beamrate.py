@@ -48,8 +48,12 @@ class Number(float):
     value = property(float)
 
     def __repr__(self):
-        interval = "" if math.isnan(self.low) else f" [{self.low:.6g}, {self.high:.6g}]"
-        return f"{self:.6g}{interval}{' (not settled)' if self.open else ''}"
+        digits = 6
+        while digits < 17 and any(end != self and f"{end:.{digits}g}" == f"{self:.{digits}g}"
+                                  for end in (self.low, self.high)):
+            digits += 1
+        interval = "" if math.isnan(self.low) else f" [{self.low:.{digits}g}, {self.high:.{digits}g}]"
+        return f"{self:.{digits}g}{interval}{' (not settled)' if self.open else ''}"
 
 
 # ---- the structs of beamrate.h: each member in its order, TYPE:NAME, or TYPE:NAME:COUNT ----
@@ -255,20 +259,27 @@ class Quantity:
 
     def __repr__(self):
         orders = [f"no order in {axis}" if math.isnan(o) else
-                  f"order in {axis} {o:.3f} [{o.low:.3f}, {o.high:.3f}]"
+                  f"order in {axis} {_order_text(o)}"
                   for axis, o in (("h", self.h), ("k", self.k)) if o is not None]
         return f"{self.name}: " + (", ".join(orders) or "no order")
+
+
+def _order_text(o):
+    """1.00 [0.99, 1.01], with digits that tell the ends from the order, as in a report."""
+    half = (o.high - o.low) / 2
+    digits = 4 if half < 5e-4 else 3 if half < 5e-3 else 2
+    while digits < 4 and any(end != o and round(end, digits) == round(o, digits) for end in (o.low, o.high)):
+        digits += 1
+    unit, value, empty = 10 ** -digits, round(o, digits), o.low == o.high
+    low = min(round(o.low, digits), value - unit * (empty or o.low < o))
+    high = max(round(o.high, digits), value + unit * (empty or o.high > o))
+    return f"{o:.{digits}f} [{low:.{digits}f}, {high:.{digits}f}]"
 
 
 def said(quantity, case):
     """"l2: order 1.00 [0.99, 1.01], expected 2 +- 0.1"."""
     o, letter = case.order, {"space": " in h", "time": " in k"}[case.study] if len(quantity._axes) > 1 else ""
-    half = (o.high - o.low) / 2
-    digits = 4 if half < 5e-4 else 3 if half < 5e-3 else 2
-    low, high = round(o.low, digits), round(o.high, digits)
-    widen = 0 if low < high else 10 ** -digits  # no interval has the width zero
-    found = "no order" if math.isnan(half) else \
-        f"order{letter} {o:.{digits}f} [{low - widen:.{digits}f}, {high + widen:.{digits}f}]"
+    found = "no order" if math.isnan(o.high - o.low) else f"order{letter} {_order_text(o)}"
     band = f"{case.expected:g} +- {case.tolerance:g}" if case.tolerance > 0 else f"at least {case.expected:g}"
     return f"{quantity.name}: {found}, expected {band}"
 
@@ -528,8 +539,9 @@ def _field(value, is_word):
 
 
 def _names(name, value):
-    value = [value] if isinstance(value, str) else value
-    return None if value is None else _text(name, ",".join(map(str, value)))
+    value = [value] if isinstance(value, str) else value if value is None else list(value)
+    none = value is None or (value == [] and name != "errors")  # without errors=, all numbers are errors
+    return None if none else _text(name, ",".join(map(str, value)))
 
 
 _SIZES = ("h", "n", "level", "dofs", "cells", "points", "interior", "degree", "k", "dt", "steps")

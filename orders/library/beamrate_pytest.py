@@ -16,6 +16,7 @@ import os
 import pytest
 
 BASELINE = "orders-baseline.json"
+KEY = pytest.StashKey()  # of a test's Orders
 FORMAT = {"format": "beamrate pytest", "version": 1}
 MOST = 2  # a constant may change by such a factor
 TOLERANCE = 0.1  # usual, and of orders that are at least so high
@@ -30,7 +31,17 @@ def pytest_addoption(parser):
 @pytest.fixture
 def orders(request):
     """Orders.check(frame, l2=2, h1=1): verdicts on orders of convergence."""
-    return Orders(request)
+    made = request.node.stash[KEY] = Orders(request)
+    return made
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_call(item):
+    """Writes what a test has checked, once all of it has passed."""
+    ended = yield
+    made = item.stash.get(KEY, None)
+    if made and made.update and made.cases and not ended.excinfo:
+        _write(made.path, made.key, made.cases)
 
 
 def _read(path):
@@ -115,6 +126,4 @@ class Orders:
             self.cases[key] = now
         if failures:
             pytest.fail("\n".join(failures))
-        if self.update:
-            _write(self.path, self.key, self.cases)
         return data

@@ -97,7 +97,7 @@ static enum br_status choose(struct layout *l, size_t first)
     long most = 0;
     size_t widest = 0, width = 0;
     int best = 0;
-    for (int i = 0; i < 2 * BR_SEPARATORS; i++) {
+    for (int i = 2 * BR_BY_EQUALS; i < 2 * BR_SEPARATORS; i++) {
         l->by = (enum br_separator)(i / 2);
         l->fields->mark = ".,"[i % 2];
         const long score = measure(l);
@@ -111,6 +111,8 @@ static enum br_status choose(struct layout *l, size_t first)
     }
     l->by = (enum br_separator)(best / 2);
     l->fields->mark = ".,"[best % 2];
+    if (!most && measure(l) > 0) /* by words */
+        width = l->width;
     l->width = l->fields->columns = width;
     const bool wide = width > BR_MOST_COLUMNS || (!width && widest > BR_MOST_COLUMNS);
     return width && !wide
@@ -706,18 +708,57 @@ static enum br_status take_fields(struct layout *l)
     return check_marks(l) || trim_columns(l) ? l->err->status : BR_OK;
 }
 
-/* Names all lines that are in no row. */
+/* Turns a table whose rows are the sizes and the errors: "h,1/2,1/4,1/8", with the name of a size
+ * among its names, and numbers behind them. */
+static enum br_status turn(const struct layout *l)
+{
+    struct br_fields *f = l->fields;
+    const size_t rows = f->columns ? f->columns - 1 : 0, columns = f->rows;
+    bool has_size = false;
+    for (size_t i = 0; i < columns; i++) {
+        const char *const *field = &f->field[i * f->columns];
+        for (size_t j = 0; j < f->columns; j++) {
+            struct br_field_number number;
+            if ((j == 0) != (field[j] && !br_field_is_missing(field[j]) &&
+                             !br_field_read(field[j], f->mark, &number)))
+                return BR_OK;
+        }
+        has_size |= br_size_name_odds(field[0]) > BR_ANY_NAME;
+    }
+    if (f->heading_line || !has_size || rows < 2 || columns > BR_MOST_COLUMNS)
+        return BR_OK;
+    const char **turned = br_store_take(&f->store, rows * columns, sizeof *turned);
+    size_t *line = br_store_take(&f->store, rows, sizeof *line);
+    f->is_words = br_store_take(&f->store, columns, sizeof *f->is_words);
+    if (f->store.failed)
+        return br_no_memory(l->err, "the table");
+    for (size_t i = 0; i < columns; i++)
+        f->heading[i] = f->field[i * f->columns];
+    for (size_t i = 0; i < rows * columns; i++)
+        turned[i] = f->field[i % columns * f->columns + i / columns + 1];
+    for (size_t i = 0; i < rows; i++)
+        line[i] = f->line[0];
+    f->heading_line = f->line[0];
+    f->field = turned;
+    f->line = line;
+    f->rows = rows;
+    f->columns = columns;
+    return BR_OK;
+}
+
+/* Names all lines that are in no row, but comments at the top. */
 static void leave_lines(const struct layout *l)
 {
     for (size_t i = 0; i < l->lines; i++) {
         const struct row *r = &l->row[i];
-        if (l->line[i].kind == BR_LINE_EMPTY || r->is_used)
+        const bool is_comment = l->line[i].kind == BR_LINE_COMMENT;
+        if (l->line[i].kind == BR_LINE_EMPTY || r->is_used || (is_comment && i < l->first))
             continue;
         for (char *c = l->line[i].text; (c = strchr(c, BR_BOX_BAR));)
             *c = '|';
         l->fields->left[l->fields->lefts++] =
             (struct br_left_line){l->line[i].number, l->line[i].text,
-                                  l->line[i].kind == BR_LINE_COMMENT      ? "comment"
+                                  is_comment                              ? "comment"
                                   : i < l->first                          ? "title"
                                   : i < l->last                           ? "between rows"
                                   : r->count == l->width && is_summary(r) ? "summary"
@@ -749,7 +790,7 @@ static enum br_status lay_out(struct layout *l)
     const enum br_status status = find_heading(l);
     if (store->failed)
         return br_no_memory(l->err, "the table");
-    if (status || check_one_table(l) || check_blocks(l) || take_fields(l))
+    if (status || check_one_table(l) || check_blocks(l) || take_fields(l) || turn(l))
         return l->err->status;
     leave_lines(l);
     return BR_OK;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "orders/reading/lines.h"
-#include "orders/reading/reading.h"
+#include "orders/reading/roles.h"
 
 /* ---- signs of a text ---- */
 
@@ -372,32 +372,50 @@ static const char *begin_of_name(const char *at, const char *end)
     return begin;
 }
 
+/* The next number among the words from `at` to `end`, without what ends a clause; *behind (out):
+ * its end. NULL: there is none. */
+static const char *next_number(const struct splitter *s, const char *at, const char *end,
+                               const char **behind)
+{
+    struct br_field_number number;
+    for (const char *word = at; word < end; word = *behind) {
+        char text[64];
+        word += strspn(word, " \t,;:=");
+        *behind = word + strcspn(word, " \t,;=");
+        *behind = *behind < end ? *behind : end;
+        const long length = *behind - word - (*behind > word && (*behind)[-1] == ':');
+        snprintf(text, sizeof text, "%.*s", length > 0 && length < 64 ? (int)length : 0, word);
+        if (br_field_read(text, s->mark, &number))
+            return word;
+    }
+    return NULL;
+}
+
+/* A name from `at` to `end`, without the blanks and signs behind it. The symbol of a size at its
+ * end is the name, whatever a sentence has before it: "Running dt". */
+static const char *copy_name(struct splitter *s, const char *at, const char *end)
+{
+    const size_t longest_symbol = 2;
+    while (end > at && strchr(" \t=:,", end[-1]))
+        end--;
+    const char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
+    const bool is_symbol =
+        last && strlen(last + 1) <= longest_symbol && br_size_name_odds(last + 1) >= BR_USUAL_NAME;
+    return is_symbol ? last + 1 : name;
+}
+
 /* Whether a word from `at` to `end` is a number; then adds the last one, named by what is before
  * it. */
 static bool add_label(struct splitter *s, const char *at, const char *end)
 {
-    const char *last = NULL, *last_end = NULL;
-    struct br_field_number number;
-    for (const char *word = at, *next; word < end; word = next) {
-        char text[64];
-        word += strspn(word, " \t,;:");
-        next = word + strcspn(word, " \t,;:");
-        next = next < end ? next : end;
-        snprintf(text, sizeof text, "%.*s",
-                 next > word && next < word + 64 ? (int)(next - word) : 0, word);
-        if (br_field_read(text, '.', &number)) {
-            last = word;
-            last_end = next;
-        }
+    const char *last = NULL, *last_end = NULL, *behind = at;
+    for (const char *next; (next = next_number(s, behind, end, &behind));) {
+        last = next;
+        last_end = behind;
     }
-    if (!last)
-        return false;
-    const char *behind = last;
-    while (behind > at && is_blank(behind[-1]))
-        behind--;
-    const char *const name = copy(s, at, behind);
-    add_token(s, last, last_end, name);
-    return true;
+    if (last)
+        add_token(s, last, last_end - (last_end[-1] == ':'), copy_name(s, at, last));
+    return last;
 }
 
 /* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
@@ -406,28 +424,43 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
 {
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
     for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
-        const char *name = begin_of_name(at, equals), *end = equals;
+        const char *const name = begin_of_name(at, equals);
         const size_t before = s->count;
         if (add_label(s, at, name) && (before > 0 || name - at > 60))
             return false;
-        while (end > name && is_blank(end[-1]))
-            end--;
         const char *const value = equals + 1 + strspn(equals + 1, " \t");
         at = value;
         while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
-        add_token(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
-        if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
+        add_token(s, value, at - (at > value && at[-1] == ':'), copy_name(s, name, equals));
+        if (strspn(name, " +-.0123456789") >= (size_t)(equals - name))
             return false; /* a time, as 12:30 */
     }
     return !add_label(s, at, at + strlen(at));
+}
+
+/* Numbers in a sentence, each named by the words before it: "N = 16: error 1.2e-2". */
+static bool split_sentence(struct splitter *s, const char *at)
+{
+    const char *const end = at + strlen(at);
+    at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0;
+    const char *behind = at;
+    for (const char *next; (next = next_number(s, behind, end, &behind)); at = behind) {
+        const char *const name = copy_name(s, begin_of_name(at, next), next);
+        if (!*name || s->count > BR_MOST_COLUMNS)
+            return false;
+        add_token(s, next, behind - (behind[-1] == ':'), name);
+    }
+    return s->count > 1;
 }
 
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token)
 {
     struct splitter s = {by, mark, room, token, 0};
+    if (by == BR_BY_WORDS)
+        return split_sentence(&s, line) ? s.count : 0;
     if (by <= BR_BY_COLONS)
         return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
     split_signs(&s, line);

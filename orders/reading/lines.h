@@ -27,8 +27,10 @@ enum { BR_BOX_BAR = '\x01' };
 enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
                             struct br_line **line, size_t *count, struct br_error *err);
 
-/* Pairs: "h = 0.1  e = 0.2", "n: 8, e: 0.1". */
+/* Pairs: "h = 0.1  e = 0.2", "n: 8, e: 0.1". Words: "N = 8: error 0.1", a name before each number;
+ * for lines that nothing else splits into numbers. */
 enum br_separator {
+    BR_BY_WORDS,
     BR_BY_EQUALS,
     BR_BY_COLONS,
     BR_BY_TABS,

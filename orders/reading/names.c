@@ -320,6 +320,14 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
     return best > 0 ? best : most >= definite ? fmin(excluded, unknown) : unknown;
 }
 
+double br_size_name_odds(const char *name)
+{
+    double most = BR_ANY_NAME;
+    for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
+        most = fmax(most, br_name_odds(name, NULL, c));
+    return most;
+}
+
 /* A field that says that there is no number, beside those that number.c knows. */
 bool br_is_gap(const char *text)
 {
@@ -340,6 +348,14 @@ const struct br_cost_row br_costs[BR_COSTS] = {
     [BR_COST_ITERATIONS] = {" iterations iteration iters iter its nit niter ", "iterations", ""},
     [BR_COST_MEMORY] = {" memory mem ram mb gb mib gib ", "peak memory", "MB"},
 };
+
+static const char logarithms[] = " log log2 log10 ln lg ";
+
+bool br_is_logarithm(const char *name)
+{
+    char word[LONGEST];
+    return next_word(&name, word) && lists(logarithms, word);
+}
 
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
 {
@@ -364,7 +380,7 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
     };
     const size_t all = sizeof units / sizeof *units;
     char word[LONGEST], last[LONGEST] = "";
-    bool part = false; /* "time per step" */
+    bool part = br_is_logarithm(name); /* "time per step", "log10 cpu" */
     enum br_cost found = BR_COSTS;
     for (const char *at = name; next_word(&at, word); strcpy(last, word)) {
         part |= lists(" per ", word);
@@ -443,9 +459,7 @@ enum br_kind br_kind_of(const char *name)
                 (!found || (found == BR_KIND_COST && lists(" error errors err fehler ", word))))
                 found = of_kinds[i].kind;
     }
-    at = name;
-    next_word(&at, word);
-    if ((!found || found == BR_KIND_ERROR) && lists(" log log2 log10 ln lg ", word))
+    if ((!found || found == BR_KIND_ERROR) && br_is_logarithm(name))
         return BR_KIND_LOGARITHM;
     return found                                            ? found
            : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION

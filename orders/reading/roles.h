@@ -34,6 +34,8 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
+bool br_is_logarithm(const char *name); /* "log10 cpu" */
+
 /* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or MB. */
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 
@@ -45,6 +47,9 @@ bool br_is_coefficient(const char *name);
 
 /* Log odds that a column of this name and unit (NULL: none) states a resolution in this way. */
 double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column);
+
+/* The most of these odds, of any way: BR_USUAL_NAME or more for "h" and "N". */
+double br_size_name_odds(const char *name);
 
 /* The unit in "dx/m", which ISO and DIN write so, and cuts it off: of a length or a time that is
  * called a size, and of nothing else. NULL: there is none, and the name may have changed. */

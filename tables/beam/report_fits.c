@@ -25,7 +25,7 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         const struct br_joint_fit *j = &r->fits[part].joint;
         const bool claims = br_joint_describes(j);
-        char text[64];
+        char text[128];
         if (!br_part_is_shown(r, part))
             continue;
         br_put_row(d);
@@ -44,9 +44,8 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
             BR_PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a],
                             .format = "%.3g");
         }
-        snprintf(text, sizeof text, claims ? "%.3f [%.3f, %.3f]" : "-", j->r.value, j->r.low,
-                 j->r.high);
-        BR_PUT_ESTIMATE(d, &j->r, text, .key = "r", .heading = "r [95 %]");
+        BR_PUT_ESTIMATE(d, &j->r, claims ? br_interval_text(&j->r, text, sizeof text) : "-",
+                        .key = "r", .heading = "r [95 %]");
         BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
         BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
         BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",

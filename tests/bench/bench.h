@@ -18,16 +18,13 @@ struct bench_time bench_time(void (*work)(void *self), void *self, double amount
 
 /* ---- rows for the file ---- */
 
-/* Adds a row; --compare matches rows by name. */
+/* Adds a row. */
 __attribute__((format(printf, 1, 2))) json_t *bench_row(const char *name, ...);
 
 /* These put into a row: a value, the times of repeats, or why it was left out. */
 void bench_put(json_t *row, const char *unit, double value);
 void bench_put_time(json_t *row, const char *unit, const struct bench_time *time);
 void bench_put_skipped(json_t *row, const char *reason);
-
-/* Prints the rows of two files beside each other. */
-enum br_status bench_compare(const char *old_path, const char *new_path, struct br_error *err);
 
 /* ---- scenes, solvers and marches ---- */
 
@@ -60,9 +57,7 @@ enum br_status bench_march(const struct bench_march *march, struct bench_march_t
 
 /* ---- sections: cmocka tests ---- */
 
-void bench_accuracy(void **state);
 void bench_speed(void **state);
 void bench_loads(void **state);
-void bench_errors(void **state);
 
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The benchmark: meson test --benchmark -C build/release
- *     bench [FILE]              runs it and writes its rows to FILE, or to $BEAMRATE_BENCHMARK
- *     bench --compare OLD NEW   prints the rows of two such files beside each other
+ *     bench [FILE]   runs it and writes its rows to FILE, or to $BEAMRATE_BENCHMARK
  * It prints times and writes them, and fails on wrong results only. */
 #include <errno.h>
 #include <math.h>
@@ -65,7 +64,7 @@ static enum br_status write_to(const char *path, struct br_error *err)
     json_decref(root);
     if (failed)
         return br_fail(err, BR_BAD_INPUT, "%s: cannot be written", path);
-    printf("\n%s was written; bench --compare OLD NEW shows two of them\n", path);
+    printf("\n%s was written\n", path);
     return BR_OK;
 }
 
@@ -97,10 +96,8 @@ static enum br_status check_path(const char *path, struct br_error *err)
 int main(int argc, const char **argv)
 {
     struct br_error err = {0};
-    if (argc == 4 && strcmp(argv[1], "--compare") == 0)
-        return report(bench_compare(argv[2], argv[3], &err), &err);
     if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
-        fprintf(stderr, "usage: bench [FILE] | bench --compare OLD NEW\n");
+        fprintf(stderr, "usage: bench [FILE]\n");
         return br_status_exit_code(BR_BAD_INPUT);
     }
     const char *variable = getenv("BEAMRATE_BENCHMARK");
@@ -108,10 +105,8 @@ int main(int argc, const char **argv)
     if (check_path(path, &err) || br_remember_command_line(argc, argv, &err))
         return report(err.status, &err);
     const struct CMUnitTest sections[] = {
-        cmocka_unit_test(bench_accuracy),
         cmocka_unit_test(bench_speed),
         cmocka_unit_test(bench_loads),
-        cmocka_unit_test(bench_errors),
     };
     const int failed = cmocka_run_group_tests(sections, set_up, NULL);
     const enum br_status status = path ? write_to(path, &err) : BR_OK;

@@ -10,8 +10,8 @@
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
+#include "tests/checks.h"
 #include "tests/lab/map.h"
-#include "tests/lab/random.h"
 
 /* ---- forces ---- */
 
@@ -31,45 +31,45 @@ static const char *const histories[] = {
 enum { SHAPES = sizeof shapes / sizeof *shapes, HISTORIES = sizeof histories / sizeof *histories };
 enum { OSCILLATES = 3 };
 
-static void draw_form(struct br_random *r, struct br_extreme_force *f)
+static void draw_form(struct br_test_random *r, struct br_extreme_force *f)
 {
-    f->shape = br_random_once_in(r, 2) ? 0 : br_random_index(r, SHAPES);
-    f->history = br_random_index(r, HISTORIES);
-    f->rate = round(br_random_decades(r, 0, 1.5)) + 0.25;
+    f->shape = br_test_once_in(r, 2) ? 0 : br_test_index(r, SHAPES);
+    f->history = br_test_index(r, HISTORIES);
+    f->rate = round(br_test_decades(r, 0, 1.5)) + 0.25;
 }
 
 /* Draws a load with a total of about `total` (N), and sometimes forces at the tip. */
-static void draw_forces(struct br_random *r, struct br_extreme_case *c, enum br_field_kind kind,
-                        double total)
+static void draw_forces(struct br_test_random *r, struct br_extreme_case *c,
+                        enum br_field_kind kind, double total)
 {
     struct br_extreme_field *p = &c->field[kind];
     draw_form(r, &p->load);
     draw_form(r, &p->tip_force);
     draw_form(r, &p->tip_moment);
-    const double sign = kind == BR_BENDING && br_random_once_in(r, 2) ? -1 : 1;
-    if (!br_random_once_in(r, 6))
-        p->load.size = sign * total / c->length * br_random_uniform(r, 0.5, 1);
-    if (br_random_once_in(r, 3))
-        p->tip_force.size = sign * total * br_random_uniform(r, -0.5, 1);
-    if (kind == BR_BENDING && br_random_once_in(r, 4))
-        p->tip_moment.size = total * c->length * br_random_uniform(r, -0.5, 0.5);
+    const double sign = kind == BR_BENDING && br_test_once_in(r, 2) ? -1 : 1;
+    if (!br_test_once_in(r, 6))
+        p->load.size = sign * total / c->length * br_test_uniform(r, 0.5, 1);
+    if (br_test_once_in(r, 3))
+        p->tip_force.size = sign * total * br_test_uniform(r, -0.5, 1);
+    if (kind == BR_BENDING && br_test_once_in(r, 4))
+        p->tip_moment.size = total * c->length * br_test_uniform(r, -0.5, 0.5);
 }
 
 /* Draws displacements of about `way` (m), and velocities of about way/time (time: s). */
-static void draw_start(struct br_random *r, struct br_extreme_field *p, double way, double time,
-                       double density)
+static void draw_start(struct br_test_random *r, struct br_extreme_field *p, double way,
+                       double time, double density)
 {
-    const double size = way * br_random_uniform(r, -1, 1);
-    if (br_random_once_in(r, 4))
-        p->displacement = (struct br_extreme_start){size, br_random_once_in(r, 4)};
-    if (br_random_once_in(r, 5) && density > 0)
-        p->velocity = (struct br_extreme_start){size / time, br_random_once_in(r, 4)};
+    const double size = way * br_test_uniform(r, -1, 1);
+    if (br_test_once_in(r, 4))
+        p->displacement = (struct br_extreme_start){size, br_test_once_in(r, 4)};
+    if (br_test_once_in(r, 5) && density > 0)
+        p->velocity = (struct br_extreme_start){size / time, br_test_once_in(r, 4)};
 }
 
 /* Coulomb's law needs the contact. */
-static void draw_law(struct br_random *r, struct br_extreme_case *c)
+static void draw_law(struct br_test_random *r, struct br_extreme_case *c)
 {
-    c->law = (enum br_friction_law)br_random_index(r, 3);
+    c->law = (enum br_friction_law)br_test_index(r, 3);
     if (c->law == BR_COULOMB && !c->contact)
         c->law = BR_TRESCA;
 }
@@ -78,54 +78,53 @@ static void draw_law(struct br_random *r, struct br_extreme_case *c)
 
 /* Draws a field by its relaxation time c/a relative to T and the static displacement of its tip
  * relative to L. */
-static void draw_natural_field(struct br_random *r, struct br_extreme_case *c,
+static void draw_natural_field(struct br_test_random *r, struct br_extreme_case *c,
                                enum br_field_kind kind, double stiffness)
 {
     struct br_extreme_field *p = &c->field[kind];
     const double power = kind == BR_AXIAL ? 1 : 3;
-    const double way = c->length * br_random_decades(r, -6, 0);
+    const double way = c->length * br_test_decades(r, -6, 0);
     p->modelled = true;
     p->stiffness = stiffness;
-    p->viscosity = stiffness * c->duration * br_random_decades(r, -6, 1);
-    if (br_random_once_in(r, 8))
+    p->viscosity = stiffness * c->duration * br_test_decades(r, -6, 1);
+    if (br_test_once_in(r, 8))
         p->viscosity = 0;
     draw_forces(r, c, kind, way * stiffness / pow(c->length, power));
     draw_start(r, p, way, c->duration, c->density);
 }
 
-static void draw_natural_laws(struct br_random *r, struct br_extreme_case *c)
+static void draw_natural_laws(struct br_test_random *r, struct br_extreme_case *c)
 {
     const struct br_extreme_field *u = &c->field[BR_AXIAL], *w = &c->field[BR_BENDING];
     const double push = fabs(u->load.size) * c->length / 2 + fabs(u->tip_force.size);
     const double pushed = push * c->length / fmax(u->stiffness, DBL_MIN);
     const double way = pushed > 0 ? pushed : 1e-3 * c->length;
     const double reaction = 0.375 * fabs(w->load.size) * c->length + fabs(w->tip_force.size);
-    c->contact = u->modelled && !br_random_once_in(r, 5);
-    c->gap = br_random_once_in(r, 3) ? 0 : way * br_random_decades(r, -6, 1);
-    c->contact_stiffness = u->stiffness / c->length * br_random_decades(r, -3, 4);
-    if (br_random_once_in(r, 5))
-        c->contact_stiffness *= br_random_decades(r, 4, 12);
+    c->contact = u->modelled && !br_test_once_in(r, 5);
+    c->gap = br_test_once_in(r, 3) ? 0 : way * br_test_decades(r, -6, 1);
+    c->contact_stiffness = u->stiffness / c->length * br_test_decades(r, -3, 4);
+    if (br_test_once_in(r, 5))
+        c->contact_stiffness *= br_test_decades(r, 4, 12);
     if (!w->modelled)
         return;
     draw_law(r, c);
-    c->friction = reaction * br_random_decades(r, -2, 1);
+    c->friction = reaction * br_test_decades(r, -2, 1);
     if (c->law == BR_COULOMB)
-        c->friction /= way * br_random_decades(r, -2, 0);
+        c->friction /= way * br_test_decades(r, -2, 0);
 }
 
-static void draw_natural(struct br_random *r, struct br_extreme_case *c)
+static void draw_natural(struct br_test_random *r, struct br_extreme_case *c)
 {
     c->natural = true;
-    c->length = br_random_once_in(r, 3) ? br_random_decades(r, -6, 6) : br_random_decades(r, -1, 1);
-    c->duration =
-        br_random_once_in(r, 3) ? br_random_decades(r, -6, 6) : br_random_decades(r, -1, 1);
-    const double bending = br_random_decades(r, -3, 6);
+    c->length = br_test_once_in(r, 3) ? br_test_decades(r, -6, 6) : br_test_decades(r, -1, 1);
+    c->duration = br_test_once_in(r, 3) ? br_test_decades(r, -6, 6) : br_test_decades(r, -1, 1);
+    const double bending = br_test_decades(r, -3, 6);
     const double axial =
         bending / (c->length * c->length) *
-        (br_random_once_in(r, 4) ? br_random_decades(r, -12, 12) : br_random_decades(r, -1, 4));
-    const double inertia = br_random_once_in(r, 4) ? 0 : br_random_decades(r, -10, 2);
+        (br_test_once_in(r, 4) ? br_test_decades(r, -12, 12) : br_test_decades(r, -1, 4));
+    const double inertia = br_test_once_in(r, 4) ? 0 : br_test_decades(r, -10, 2);
     c->density = inertia * bending * pow(c->duration, 2) / pow(c->length, 4);
-    const size_t fields = br_random_index(r, 6);
+    const size_t fields = br_test_index(r, 6);
     if (fields != 0)
         draw_natural_field(r, c, BR_AXIAL, axial);
     if (fields != 1)
@@ -136,17 +135,17 @@ static void draw_natural(struct br_random *r, struct br_extreme_case *c)
 /* ---- any numbers ---- */
 
 /* 10^[low, high), or sometimes 0. */
-static double wild(struct br_random *r, double low, double high)
+static double wild(struct br_test_random *r, double low, double high)
 {
-    return br_random_once_in(r, 8) ? 0 : br_random_decades(r, low, high);
+    return br_test_once_in(r, 8) ? 0 : br_test_decades(r, low, high);
 }
 
-static void draw_wild(struct br_random *r, struct br_extreme_case *c)
+static void draw_wild(struct br_test_random *r, struct br_extreme_case *c)
 {
-    c->length = br_random_decades(r, -6, 6);
-    c->duration = br_random_decades(r, -6, 6);
+    c->length = br_test_decades(r, -6, 6);
+    c->duration = br_test_decades(r, -6, 6);
     c->density = wild(r, -8, 6);
-    const size_t fields = br_random_index(r, 6);
+    const size_t fields = br_test_index(r, 6);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         struct br_extreme_field *p = &c->field[kind];
         if (fields == (size_t)kind)
@@ -154,11 +153,11 @@ static void draw_wild(struct br_random *r, struct br_extreme_case *c)
         p->modelled = true;
         p->stiffness = wild(r, -6, 6);
         p->viscosity = wild(r, -6, 6);
-        draw_forces(r, c, kind, br_random_decades(r, -6, 12));
-        draw_start(r, p, br_random_decades(r, -9, 0) * c->length, br_random_decades(r, -6, 6),
+        draw_forces(r, c, kind, br_test_decades(r, -6, 12));
+        draw_start(r, p, br_test_decades(r, -9, 0) * c->length, br_test_decades(r, -6, 6),
                    c->density);
     }
-    c->contact = c->field[BR_AXIAL].modelled && !br_random_once_in(r, 5);
+    c->contact = c->field[BR_AXIAL].modelled && !br_test_once_in(r, 5);
     c->gap = wild(r, -15, 6);
     c->contact_stiffness = wild(r, -6, 15);
     if (!c->field[BR_BENDING].modelled)
@@ -178,13 +177,13 @@ static size_t rows(const void *const *registry)
 }
 
 /* Picks a row of a registry; in half of the draws the first one. */
-static const void *pick(struct br_random *r, const void *const *registry)
+static const void *pick(struct br_test_random *r, const void *const *registry)
 {
-    const size_t row = br_random_index(r, rows(registry));
-    return registry[br_random_once_in(r, 2) ? 0 : row];
+    const size_t row = br_test_index(r, rows(registry));
+    return registry[br_test_once_in(r, 2) ? 0 : row];
 }
 
-static void draw_method(struct br_random *r, struct br_extreme_case *c)
+static void draw_method(struct br_test_random *r, struct br_extreme_case *c)
 {
     /* As many rows as there once were, so that a seed keeps its cases. */
     static const struct br_linear_solver *const solvers[] = {
@@ -192,21 +191,21 @@ static void draw_method(struct br_random *r, struct br_extreme_case *c)
     struct br_method *m = &c->method;
     *m = br_method_default();
     const size_t schemes = rows((const void *const *)br_time_schemes);
-    if (!br_random_once_in(r, 4))
-        m->scheme = br_time_schemes[br_random_index(r, schemes)];
+    if (!br_test_once_in(r, 4))
+        m->scheme = br_time_schemes[br_test_index(r, schemes)];
     m->solver = pick(r, (const void *const *)solvers);
     m->friction = pick(r, (const void *const *)br_friction_rules);
     m->contact = pick(r, (const void *const *)br_contact_rules);
     if (!m->scheme->may_lag)
         m->contact = br_contact_rule_of(m->scheme);
-    m->tolerance = br_random_decades(r, -9, -3);
-    br_random_index(r, 3);
-    br_random_index(r, 3);
-    m->axial_degree = br_random_once_in(r, 4) ? 2 : 1;
+    m->tolerance = br_test_decades(r, -9, -3);
+    br_test_index(r, 3);
+    br_test_index(r, 3);
+    m->axial_degree = br_test_once_in(r, 4) ? 2 : 1;
     c->regularisation = wild(r, -15, 0);
     if (c->natural) /* of the tip's mean speed */
         c->regularisation *= c->length / c->duration;
-    if (c->law == BR_TRESCA && br_random_once_in(r, 2) && c->field[BR_AXIAL].modelled)
+    if (c->law == BR_TRESCA && br_test_once_in(r, 2) && c->field[BR_AXIAL].modelled)
         c->wanted = 3;
 }
 
@@ -219,16 +218,16 @@ static double solves(const struct br_method *m)
 /* The limit of elements times linear solves of a case. */
 static const double most_work = 1e5;
 
-static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
+static void draw_resolution(struct br_test_random *r, struct br_extreme_case *c)
 {
     const double most = fmax(2, most_work / solves(&c->method));
     const double decades = fmin(6, log10(most));
-    const size_t kind = br_random_index(r, 8);
-    double n = floor(br_random_decades(r, 0, 2.7));
+    const size_t kind = br_test_index(r, 8);
+    double n = floor(br_test_decades(r, 0, 2.7));
     if (kind == 0) /* few steps on a very fine mesh */
-        n = floor(br_random_decades(r, 2.5, decades));
+        n = floor(br_test_decades(r, 2.5, decades));
     n = fmax(1, fmin(n, most));
-    double steps = floor(br_random_decades(r, 0, fmax(0.4, log10(most / n))));
+    double steps = floor(br_test_decades(r, 0, fmax(0.4, log10(most / n))));
     steps = fmax(1, fmin(steps, most / n));
     c->n = (size_t)n;
     c->steps = (size_t)steps;
@@ -236,7 +235,7 @@ static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
 
 /* ---- special cases ---- */
 
-static void drop_some(struct br_random *r, struct br_extreme_case *c)
+static void drop_some(struct br_test_random *r, struct br_extreme_case *c)
 {
     double *const may_be_zero[] = {
         &c->density,
@@ -251,7 +250,7 @@ static void drop_some(struct br_random *r, struct br_extreme_case *c)
         &c->friction,
     };
     for (size_t i = 0; i < sizeof may_be_zero / sizeof *may_be_zero; i++)
-        if (br_random_once_in(r, 4))
+        if (br_test_once_in(r, 4))
             *may_be_zero[i] = 0;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && c->density == 0; kind++)
         c->field[kind].velocity.size = 0;
@@ -274,11 +273,11 @@ static void scale_forces(struct br_extreme_case *c, double to)
         c->field[kind].displacement.size = c->field[kind].velocity.size = 0;
 }
 
-static void oscillate(struct br_random *r, struct br_extreme_case *c)
+static void oscillate(struct br_test_random *r, struct br_extreme_case *c)
 {
     for (size_t i = 0; i < FORCES; i++) {
         force_of(c, i)->history = OSCILLATES;
-        force_of(c, i)->rate = (double)c->steps * br_random_uniform(r, 0.3, 2);
+        force_of(c, i)->rate = (double)c->steps * br_test_uniform(r, 0.3, 2);
     }
 }
 
@@ -333,18 +332,18 @@ static void tune(struct br_extreme_case *c, double little)
 
 /* ---- a case ---- */
 
-static void play(struct br_random *r, struct br_extreme_case *c)
+static void play(struct br_test_random *r, struct br_extreme_case *c)
 {
     const struct br_extreme_field *u = &c->field[BR_AXIAL];
     static const double littles[] = {0, 1e-15, -1e-15, 1e-6, -1e-6, 0.02, -0.02};
     switch (c->special) {
     case BR_SPECIAL_GRAZING:
         c->gap = (u->load.size * c->length * c->length / 2 + u->tip_force.size * c->length) /
-                 fmax(u->stiffness, DBL_MIN) * (1 + littles[br_random_index(r, 5)]);
+                 fmax(u->stiffness, DBL_MIN) * (1 + littles[br_test_index(r, 5)]);
         c->gap = isfinite(c->gap) ? fabs(c->gap) : 0;
         break;
     case BR_SPECIAL_DENORMAL:
-        scale_forces(c, br_random_uniform(r, 0.1, 1) * 1e-309);
+        scale_forces(c, br_test_uniform(r, 0.1, 1) * 1e-309);
         break;
     case BR_SPECIAL_ZEROS:
         drop_some(r, c);
@@ -354,7 +353,7 @@ static void play(struct br_random *r, struct br_extreme_case *c)
         break;
     case BR_SPECIAL_AT_LIMIT:
     case BR_SPECIAL_AT_REACTION:
-        tune(c, littles[br_random_index(r, 7)]);
+        tune(c, littles[br_test_index(r, 7)]);
         break;
     case BR_SPECIAL_NONE:
     case BR_SPECIALS:
@@ -364,16 +363,16 @@ static void play(struct br_random *r, struct br_extreme_case *c)
 
 void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *c)
 {
-    struct br_random r = br_random_of(seed, index);
+    struct br_test_random r = br_test_random_of(seed, index);
     *c = (struct br_extreme_case){.seed = seed, .index = index};
-    if (br_random_once_in(&r, 3))
+    if (br_test_once_in(&r, 3))
         draw_wild(&r, c);
     else
         draw_natural(&r, c);
     draw_method(&r, c);
     draw_resolution(&r, c);
-    if (br_random_once_in(&r, 3))
-        c->special = (enum br_extreme_special)br_random_index(&r, BR_SPECIALS);
+    if (br_test_once_in(&r, 3))
+        c->special = (enum br_extreme_special)br_test_index(&r, BR_SPECIALS);
     play(&r, c);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/lab/draw.h"
 
-static void clean(struct br_random *r, struct br_error_line *s)
+static void clean(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = order(r);
@@ -10,7 +10,7 @@ static void clean(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth), d);
 }
 
-static void next(struct br_random *r, struct br_error_line *s, double by)
+static void next(struct br_test_random *r, struct br_error_line *s, double by)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = order(r);
@@ -18,17 +18,17 @@ static void next(struct br_random *r, struct br_error_line *s, double by)
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * pow(s->h[i], by)), 6);
 }
 
-static void next1(struct br_random *r, struct br_error_line *s)
+static void next1(struct br_test_random *r, struct br_error_line *s)
 {
     next(r, s, 1);
 }
 
-static void next2(struct br_random *r, struct br_error_line *s)
+static void next2(struct br_test_random *r, struct br_error_line *s)
 {
     next(r, s, 2);
 }
 
-static void series(struct br_random *r, struct br_error_line *s)
+static void series(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, 1, 2, 4);
@@ -40,7 +40,7 @@ static void series(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void ratios(struct br_random *r, struct br_error_line *s)
+static void ratios(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 4, 8);
     s->truth = order(r);
@@ -53,7 +53,7 @@ static void ratios(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void linear(struct br_random *r, struct br_error_line *s)
+static void linear(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 4, 10);
     s->truth = order(r);
@@ -65,7 +65,7 @@ static void linear(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void root2(struct br_random *r, struct br_error_line *s)
+static void root2(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, sqrt(2));
     s->truth = order(r);
@@ -73,7 +73,7 @@ static void root2(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
 }
 
-static void roundoff(struct br_random *r, struct br_error_line *s)
+static void roundoff(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 2, 3, 4);
@@ -84,7 +84,7 @@ static void roundoff(struct br_random *r, struct br_error_line *s)
         fabs(c * pow(s->h[i], s->truth) + f * normal(r) * .3 * pow(s->h[meet] / s->h[i], g));
 }
 
-static void evenodd(struct br_random *r, struct br_error_line *s)
+static void evenodd(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = order(r);
@@ -92,7 +92,7 @@ static void evenodd(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + (i % 2 ? a : -a));
 }
 
-static void noise(struct br_random *r, struct br_error_line *s, size_t l, size_t m, double a)
+static void noise(struct br_test_random *r, struct br_error_line *s, size_t l, size_t m, double a)
 {
     mesh_sequence(r, s, l, m, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -100,22 +100,22 @@ static void noise(struct br_random *r, struct br_error_line *s, size_t l, size_t
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * exp(a * normal(r));
 }
 
-static void noise1(struct br_random *r, struct br_error_line *s)
+static void noise1(struct br_test_random *r, struct br_error_line *s)
 {
     noise(r, s, 4, 8, .01);
 }
 
-static void noise5(struct br_random *r, struct br_error_line *s)
+static void noise5(struct br_test_random *r, struct br_error_line *s)
 {
     noise(r, s, 5, 8, .05);
 }
 
-static void noise20(struct br_random *r, struct br_error_line *s)
+static void noise20(struct br_test_random *r, struct br_error_line *s)
 {
     noise(r, s, 8, 12, .2);
 }
 
-static void adaptive(struct br_random *r, struct br_error_line *s)
+static void adaptive(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 8, 14);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -128,7 +128,7 @@ static void adaptive(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void ratio11(struct br_random *r, struct br_error_line *s)
+static void ratio11(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 10, 1.1);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -136,7 +136,7 @@ static void ratio11(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 6);
 }
 
-static void values(struct br_random *r, struct br_error_line *s)
+static void values(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->values = true;
@@ -146,7 +146,7 @@ static void values(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = limit + c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
 }
 
-static void oscillate(struct br_random *r, struct br_error_line *s)
+static void oscillate(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->values = true;
@@ -156,7 +156,7 @@ static void oscillate(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = limit + c * pow(s->h[i], s->truth) * (i % 2 ? -1 : 1);
 }
 
-static void lower(struct br_random *r, struct br_error_line *s)
+static void lower(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     double p = PICK(r, 2, 3, 4), q = PICK(r, 1, 1.5, 2, 3);
@@ -168,7 +168,7 @@ static void lower(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * (pow(s->h[i], p) + b * pow(s->h[i], q));
 }
 
-static void lowervalue(struct br_random *r, struct br_error_line *s)
+static void lowervalue(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->values = true;
@@ -182,15 +182,15 @@ static void lowervalue(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void tied(struct br_random *r, struct br_error_line *s)
+static void tied(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 7, 2);
     s->truth = 1;
-    double a = br_random_decades(r, 0, 1.5), c = constant_of(r);
+    double a = br_test_decades(r, 0, 1.5), c = constant_of(r);
     EACH_ROW s->e[i] = c * (a / s->h[0] * s->h[i] * s->h[i] + s->h[i]);
 }
 
-static void floored(struct br_random *r, struct br_error_line *s)
+static void floored(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -200,7 +200,7 @@ static void floored(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) + f;
 }
 
-static void floorq(struct br_random *r, struct br_error_line *s)
+static void floorq(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -210,7 +210,7 @@ static void floorq(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = hypot(c * pow(s->h[i], s->truth), f);
 }
 
-static void saturated(struct br_random *r, struct br_error_line *s)
+static void saturated(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -218,17 +218,17 @@ static void saturated(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * (pow(s->h[i], s->truth) - pow(ref, s->truth));
 }
 
-static void norms(struct br_random *r, struct br_error_line *s)
+static void norms(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     bool b = r->state & 4;
     s->truth = b ? 2. / 3 : 4. / 3;
     double p = b ? 1 : 2, c = constant_of(r),
-           a = br_random_decades(r, -1, .5) / pow(s->h[s->rows / 2], p - s->truth);
+           a = br_test_decades(r, -1, .5) / pow(s->h[s->rows / 2], p - s->truth);
     EACH_ROW s->e[i] = c * hypot(pow(s->h[i], s->truth), a * pow(s->h[i], p));
 }
 
-static void logs(struct br_random *r, struct br_error_line *s)
+static void logs(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, 1, 2);
@@ -236,7 +236,7 @@ static void logs(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * pow(fabs(log(s->h[i])), m);
 }
 
-static void change(struct br_random *r, struct br_error_line *s)
+static void change(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = order(r);
@@ -244,7 +244,7 @@ static void change(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * fabs(pow(s->h[i], s->truth) - pow(s->h[i], s->truth + 1) / at);
 }
 
-static void changeearly(struct br_random *r, struct br_error_line *s)
+static void changeearly(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = order(r);
@@ -252,16 +252,16 @@ static void changeearly(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * fabs(pow(s->h[i], s->truth) - pow(s->h[i], s->truth + 1) / at);
 }
 
-static void badcoarse(struct br_random *r, struct br_error_line *s)
+static void badcoarse(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
-    double c = constant_of(r), a = uniform(r, -.1, .1) / s->h[0], f = br_random_decades(r, .3, 1.5);
+    double c = constant_of(r), a = uniform(r, -.1, .1) / s->h[0], f = br_test_decades(r, .3, 1.5);
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
     s->e[0] *= r->state & 8 ? f : 1 / f;
 }
 
-static void unresolved(struct br_random *r, struct br_error_line *s)
+static void unresolved(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -273,17 +273,17 @@ static void unresolved(struct br_random *r, struct br_error_line *s)
         s->e[i] = level * uniform(r, .6, 1.6);
 }
 
-static void outlier(struct br_random *r, struct br_error_line *s)
+static void outlier(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 2, 3);
     double c = constant_of(r), a = uniform(r, -.1, .1) / s->h[0];
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
-    double f = br_random_decades(r, .3, 1);
+    double f = br_test_decades(r, .3, 1);
     s->e[whole(r, 1, s->rows - 2)] *= r->state & 8 ? f : 1 / f;
 }
 
-static void locking(struct br_random *r, struct br_error_line *s)
+static void locking(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 1, 2);
@@ -295,7 +295,7 @@ static void locking(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void three(struct br_random *r, struct br_error_line *s)
+static void three(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 3, 2);
     s->truth = order(r);
@@ -303,7 +303,7 @@ static void three(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
 }
 
-static void mcone(struct br_random *r, struct br_error_line *s)
+static void mcone(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 6, 14);
     s->truth = .5;
@@ -314,7 +314,7 @@ static void mcone(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void mcrms(struct br_random *r, struct br_error_line *s)
+static void mcrms(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 5, 10);
     s->truth = .5;
@@ -332,7 +332,7 @@ static void mcrms(struct br_random *r, struct br_error_line *s)
 
 /* Means of runs that scatter, from row to row by other amounts, with the deviations that the runs
  * show, as of orders --repeat. */
-static void means(struct br_random *r, struct br_error_line *s, double next)
+static void means(struct br_test_random *r, struct br_error_line *s, double next)
 {
     const size_t runs = whole(r, 4, 12);
     mesh_sequence(r, s, 4, 8, 2);
@@ -340,7 +340,7 @@ static void means(struct br_random *r, struct br_error_line *s, double next)
     const double c = constant_of(r), a = uniform(r, -next, next) / s->h[0];
     EACH_ROW
     {
-        const double scatter = br_random_decades(r, -2, -.5);
+        const double scatter = br_test_decades(r, -2, -.5);
         double sum = 0, squares = 0;
         for (size_t j = 0; j < runs; j++) {
             const double e =
@@ -353,23 +353,23 @@ static void means(struct br_random *r, struct br_error_line *s, double next)
     }
 }
 
-static void means0(struct br_random *r, struct br_error_line *s)
+static void means0(struct br_test_random *r, struct br_error_line *s)
 {
     means(r, s, 0);
 }
 
-static void means1(struct br_random *r, struct br_error_line *s)
+static void means1(struct br_test_random *r, struct br_error_line *s)
 {
     means(r, s, .5);
 }
 
-static void mixed(struct br_random *r, struct br_error_line *s)
+static void mixed(struct br_test_random *r, struct br_error_line *s)
 {
     lower(r, s);
     EACH_ROW s->e[i] *= exp(.02 * normal(r));
 }
 
-static void nextnoise(struct br_random *r, struct br_error_line *s)
+static void nextnoise(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -377,13 +377,13 @@ static void nextnoise(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]) * exp(.02 * normal(r));
 }
 
-static void floornoise(struct br_random *r, struct br_error_line *s)
+static void floornoise(struct br_test_random *r, struct br_error_line *s)
 {
     floored(r, s);
     EACH_ROW s->e[i] *= exp(.03 * normal(r));
 }
 
-static void fewlow(struct br_random *r, struct br_error_line *s)
+static void fewlow(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 5, 2);
     s->truth = PICK(r, 1, 2);
@@ -391,7 +391,7 @@ static void fewlow(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
 }
 
-static void layers(struct br_random *r, struct br_error_line *s)
+static void layers(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = 2;
@@ -403,7 +403,7 @@ static void layers(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void constant(struct br_random *r, struct br_error_line *s)
+static void constant(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = NAN;
@@ -411,7 +411,7 @@ static void constant(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * (1 + a * pow(s->h[i] / s->h[0], 2));
 }
 
-static void grows(struct br_random *r, struct br_error_line *s)
+static void grows(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = NAN;
@@ -419,14 +419,14 @@ static void grows(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], -g) * exp(.1 * normal(r));
 }
 
-static void scatter(struct br_random *r, struct br_error_line *s)
+static void scatter(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 10, 2);
     s->truth = NAN;
     EACH_ROW s->e[i] = exp(normal(r));
 }
 
-static void dipped(struct br_random *r, struct br_error_line *s)
+static void dipped(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = NAN;
@@ -437,7 +437,8 @@ static void dipped(struct br_random *r, struct br_error_line *s)
 /* ---- of two minds: the order may be that of the coarse rows or that of the finest ones ---- */
 
 /* Errors whose order from row to row is p, and q between the last ones. */
-static void kinked(struct br_random *r, struct br_error_line *s, double p, double q, size_t last)
+static void kinked(struct br_test_random *r, struct br_error_line *s, double p, double q,
+                   size_t last)
 {
     s->other = p;
     s->truth = q;
@@ -446,15 +447,15 @@ static void kinked(struct br_random *r, struct br_error_line *s, double p, doubl
         s->e[i] = s->e[i - 1] * pow(s->h[i] / s->h[i - 1], i + last < s->rows ? p : q);
 }
 
-static void drops(struct br_random *r, struct br_error_line *s)
+static void drops(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 7, 9, 2);
     kinked(r, s, PICK(r, 3, 4), PICK(r, 1, 2), 3);
-    const double deep = br_random_decades(r, -8, -7) / s->e[s->rows - 1];
+    const double deep = br_test_decades(r, -8, -7) / s->e[s->rows - 1];
     EACH_ROW s->e[i] = digits(deep * s->e[i], 6);
 }
 
-static void rises(struct br_random *r, struct br_error_line *s)
+static void rises(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     const double p = PICK(r, 1, 1.5, 2, 2.5);
@@ -462,14 +463,14 @@ static void rises(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = digits(s->e[i], 5);
 }
 
-static void kink(struct br_random *r, struct br_error_line *s)
+static void kink(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 10, PICK(r, 2, 2, 1.5));
     const double p = PICK(r, 1.5, 2, 3, 4);
     kinked(r, s, p, p - uniform(r, .4, 1), 2);
 }
 
-static void kink3(struct br_random *r, struct br_error_line *s)
+static void kink3(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 10, 2);
     const double p = PICK(r, 1.5, 2, 3, 4);
@@ -477,7 +478,7 @@ static void kink3(struct br_random *r, struct br_error_line *s)
 }
 
 /* The largest of two errors at two places. */
-static void maximum(struct br_random *r, struct br_error_line *s)
+static void maximum(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->other = PICK(r, 2, 2.5, 3);
@@ -488,7 +489,7 @@ static void maximum(struct br_random *r, struct br_error_line *s)
 }
 
 /* Values whose differences fall as errors of a kink do. Their limit is that of the finest rows. */
-static void kinkedvalues(struct br_random *r, struct br_error_line *s)
+static void kinkedvalues(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->values = true;
@@ -507,7 +508,7 @@ static void kinkedvalues(struct br_random *r, struct br_error_line *s)
 
 /* ---- laws beside the common ones ---- */
 
-static void powerlogs(struct br_random *r, struct br_error_line *s)
+static void powerlogs(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 9, 2);
     s->truth = PICK(r, 1, 2);
@@ -515,7 +516,7 @@ static void powerlogs(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * pow(fabs(log(s->h[i])), g);
 }
 
-static void halves(struct br_random *r, struct br_error_line *s)
+static void halves(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 1.5, 2);
@@ -527,7 +528,7 @@ static void halves(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void reference(struct br_random *r, struct br_error_line *s)
+static void reference(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -537,29 +538,29 @@ static void reference(struct br_random *r, struct br_error_line *s)
         c * (pow(s->h[i], s->truth) * (1 + a * s->h[i]) - pow(h, s->truth) * (1 + a * h));
 }
 
-static void plateau(struct br_random *r, struct br_error_line *s)
+static void plateau(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
     const double c = constant_of(r), by = uniform(r, .1, .5);
     const size_t good = s->rows - whole(r, 1, 3);
-    const double level = c * pow(s->h[good], s->truth) * br_random_decades(r, 0, .5);
+    const double level = c * pow(s->h[good], s->truth) * br_test_decades(r, 0, .5);
     EACH_ROW s->e[i] =
         digits(c * pow(s->h[i], s->truth) + level * exp(by * normal(r)) * (i >= good), 5);
 }
 
-static void growingroundoff(struct br_random *r, struct br_error_line *s)
+static void growingroundoff(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 8, 14, 2);
     s->truth = PICK(r, 2, 3, 4);
     const double c = constant_of(r), g = PICK(r, 1, 2);
     const size_t good = whole(r, 4, s->rows - 3);
-    const double level = c * pow(s->h[good], s->truth) * br_random_decades(r, -1, 0);
+    const double level = c * pow(s->h[good], s->truth) * br_test_decades(r, -1, 0);
     EACH_ROW s->e[i] = digits(
         fabs(c * pow(s->h[i], s->truth) + level * normal(r) * pow(s->h[good] / s->h[i], g)), 4);
 }
 
-static void highorder(struct br_random *r, struct br_error_line *s)
+static void highorder(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 3, 2);
     s->truth = (double)whole(r, 6, 12);
@@ -567,7 +568,7 @@ static void highorder(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
 }
 
-static void roundofffloor(struct br_random *r, struct br_error_line *s)
+static void roundofffloor(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 10, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -577,7 +578,7 @@ static void roundofffloor(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = fabs(c * pow(s->h[i], s->truth) + level * normal(r));
 }
 
-static void floorvalues(struct br_random *r, struct br_error_line *s)
+static void floorvalues(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->values = true;
@@ -588,15 +589,15 @@ static void floorvalues(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = s->limit + c * pow(s->h[i], s->truth) + .5 * level * normal(r);
 }
 
-static void zeroorder(struct br_random *r, struct br_error_line *s)
+static void zeroorder(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 10, 2);
-    const double c = constant_of(r), by = br_random_decades(r, -3, -.5);
+    const double c = constant_of(r), by = br_test_decades(r, -3, -.5);
     const int d = (int)whole(r, 2, 6);
     EACH_ROW s->e[i] = digits(c * exp(by * normal(r)), d);
 }
 
-static void turns(struct br_random *r, struct br_error_line *s)
+static void turns(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 10, 2);
     const double c = constant_of(r), p = PICK(r, 1, 2), g = uniform(r, .7, 3);
@@ -607,12 +608,12 @@ static void turns(struct br_random *r, struct br_error_line *s)
 /* ---- limits ---- */
 
 /* Values L + d x^p (1 + a x), x relative to the coarsest size. */
-static void powervalues(struct br_random *r, struct br_error_line *s, double next)
+static void powervalues(struct br_test_random *r, struct br_error_line *s, double next)
 {
     s->values = true;
     s->limit = uniform(r, -3, 3);
     s->truth = PICK(r, 1, 1.5, 2, 3, 4);
-    const double d = br_random_decades(r, -3, 0) * PICK(r, -1, 1), a = uniform(r, -next, next);
+    const double d = br_test_decades(r, -3, 0) * PICK(r, -1, 1), a = uniform(r, -next, next);
     EACH_ROW
     {
         const double x = s->h[i] / s->h[0];
@@ -620,33 +621,33 @@ static void powervalues(struct br_random *r, struct br_error_line *s, double nex
     }
 }
 
-static void cleanlimit(struct br_random *r, struct br_error_line *s)
+static void cleanlimit(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, PICK(r, 2, 2, 1.5));
     powervalues(r, s, 0);
 }
 
-static void cleanlimit3(struct br_random *r, struct br_error_line *s)
+static void cleanlimit3(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 3, PICK(r, 2, 2, 1.5));
     powervalues(r, s, 0);
 }
 
-static void nextlimit3(struct br_random *r, struct br_error_line *s)
+static void nextlimit3(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 3, PICK(r, 2, 2, 1.5));
     powervalues(r, s, .5);
 }
 
-static void badlimit(struct br_random *r, struct br_error_line *s)
+static void badlimit(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     powervalues(r, s, 0);
-    s->e[0] += (s->e[0] - s->limit) * PICK(r, -1, 1) * br_random_decades(r, -.3, 1);
+    s->e[0] += (s->e[0] - s->limit) * PICK(r, -1, 1) * br_test_decades(r, -.3, 1);
 }
 
 /* A lower power that comes up within the rows, after p - q of 1 or 2. */
-static void lowerlimit(struct br_random *r, struct br_error_line *s)
+static void lowerlimit(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     powervalues(r, s, 0);
@@ -661,7 +662,7 @@ static void lowerlimit(struct br_random *r, struct br_error_line *s)
 }
 
 /* Values with so many decimals that the finest of them differ by 0.3, 1 or 3 units. */
-static void rounded(struct br_random *r, struct br_error_line *s)
+static void rounded(struct br_test_random *r, struct br_error_line *s)
 {
     powervalues(r, s, .2);
     const double last = fabs(s->e[s->rows - 1] - s->e[s->rows - 2]);
@@ -674,20 +675,20 @@ static void rounded(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void rounded3(struct br_random *r, struct br_error_line *s)
+static void rounded3(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 3, 2);
     rounded(r, s);
 }
 
-static void rounded7(struct br_random *r, struct br_error_line *s)
+static void rounded7(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 7, 2);
     rounded(r, s);
 }
 
 /* Noise of so much of the finest difference. */
-static void noisevalues(struct br_random *r, struct br_error_line *s, double noise)
+static void noisevalues(struct br_test_random *r, struct br_error_line *s, double noise)
 {
     mesh_sequence(r, s, 4, 8, 2);
     powervalues(r, s, .2);
@@ -695,17 +696,17 @@ static void noisevalues(struct br_random *r, struct br_error_line *s, double noi
     EACH_ROW s->e[i] += noise * normal(r);
 }
 
-static void noiselimit1(struct br_random *r, struct br_error_line *s)
+static void noiselimit1(struct br_test_random *r, struct br_error_line *s)
 {
     noisevalues(r, s, .01);
 }
 
-static void noiselimit20(struct br_random *r, struct br_error_line *s)
+static void noiselimit20(struct br_test_random *r, struct br_error_line *s)
 {
     noisevalues(r, s, .2);
 }
 
-static void cubics(struct br_random *r, struct br_error_line *s)
+static void cubics(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 8, 2);
     s->values = true;
@@ -720,12 +721,12 @@ static void cubics(struct br_random *r, struct br_error_line *s)
 }
 
 /* The integral of exp(a x) sin(b x + 1) from 0 to 1 by midpoints, trapezoids or Simpson's rule. */
-static void quadrature(struct br_random *r, struct br_error_line *s)
+static void quadrature(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 8, 2);
     s->values = true;
     const double a = uniform(r, -2, 2), b = uniform(r, .5, 6);
-    const size_t rule = br_random_index(r, 3);
+    const size_t rule = br_test_index(r, 3);
     s->truth = rule == 2 ? 4 : 2;
     s->limit =
         (exp(a) * (a * sin(b + 1) - b * cos(b + 1)) - a * sin(1) + b * cos(1)) / (a * a + b * b);
@@ -745,12 +746,12 @@ static void quadrature(struct br_random *r, struct br_error_line *s)
 
 /* y' = -a y + sin(b t), y = 1 at t = 0, at t = 1, by Euler's, the midpoint and the classical
  * method. */
-static void ode(struct br_random *r, struct br_error_line *s)
+static void ode(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 8, 2);
     s->values = true;
     const double a = uniform(r, .5, 3), b = uniform(r, .5, 5), d = a * a + b * b;
-    const size_t method = br_random_index(r, 3);
+    const size_t method = br_test_index(r, 3);
     s->truth = method == 0 ? 1 : method == 1 ? 2 : 4;
     s->limit = (a * sin(b) - b * cos(b)) / d + (1 + b / d) * exp(-a);
     EACH_ROW
@@ -769,7 +770,7 @@ static void ode(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void diverging(struct br_random *r, struct br_error_line *s)
+static void diverging(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 3, 9, 2);
     s->values = true;
@@ -777,12 +778,12 @@ static void diverging(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = start + c * pow(s->h[0] / s->h[i], g);
 }
 
-static void logvalues(struct br_random *r, struct br_error_line *s)
+static void logvalues(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 10, 2);
     s->values = true;
     const double start = uniform(r, -3, 3), c = uniform(r, .1, 1) * PICK(r, -1, 1);
-    const bool twice = br_random_once_in(r, 4);
+    const bool twice = br_test_once_in(r, 4);
     EACH_ROW
     {
         const double l = -log(s->h[i]);

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "tests/lab/random.h"
+#include "tests/checks.h"
 
 enum { BR_MOST_ERRORS = 16 };
 
@@ -34,7 +34,7 @@ enum br_error_group {
 struct br_error_class {
     const char *name;
     enum br_error_group group;
-    void (*draw)(struct br_random *random, struct br_error_line *line);
+    void (*draw)(struct br_test_random *random, struct br_error_line *line);
 };
 extern const struct br_error_class br_error_classes[];
 extern const struct br_error_class br_limit_classes[];    /* of values, for their limits */

@@ -41,10 +41,10 @@ struct br_grid_law {
     } changes; /* order: at a size, between */
 };
 
-static inline double br_grid_normal(struct br_random *r)
+static inline double br_grid_normal(struct br_test_random *r)
 {
-    return sqrt(-2 * log(1 - br_random_uniform(r, 0, 1))) *
-           cos(2 * acos(-1) * br_random_uniform(r, 0, 1));
+    return sqrt(-2 * log(1 - br_test_uniform(r, 0, 1))) *
+           cos(2 * acos(-1) * br_test_uniform(r, 0, 1));
 }
 
 /* As a table prints it. */
@@ -56,29 +56,29 @@ static inline double br_grid_printed(double value, int digits)
 
 /* Whether a class has the cell of mesh i and step j; of cells that go along, those near the
  * diagonal. */
-static inline bool br_grid_has(struct br_random *r, const struct br_grid_law *law, size_t i,
+static inline bool br_grid_has(struct br_test_random *r, const struct br_grid_law *law, size_t i,
                                size_t j)
 {
     const bool near = i <= j + 1 && j <= i + 1;
     return law->cells == BR_GRID_FULL || (law->cells == BR_GRID_TIED && near) ||
            (law->cells == BR_GRID_DIAGONALS && (j == i || j == i + 1)) ||
-           (law->cells == BR_GRID_MISSING && !br_random_once_in(r, 6));
+           (law->cells == BR_GRID_MISSING && !br_test_once_in(r, 6));
 }
 
 /* The constants of both errors: they meet in a cell within the grid, or one exceeds the other in
  * all of them. */
-static inline void br_grid_balance(struct br_random *r, const struct br_grid *g, double balance,
-                                   double ratio, double c[2])
+static inline void br_grid_balance(struct br_test_random *r, const struct br_grid *g,
+                                   double balance, double ratio, double c[2])
 {
     const double p = g->order[0], q = g->order[1];
-    const double i = br_random_uniform(r, 0.3, 0.7) * (double)(g->meshes - 1);
-    const double j = br_random_uniform(r, 0.3, 0.7) * (double)(g->steps - 1);
+    const double i = br_test_uniform(r, 0.3, 0.7) * (double)(g->meshes - 1);
+    const double j = br_test_uniform(r, 0.3, 0.7) * (double)(g->steps - 1);
     double decades = p * i * log10(ratio) - q * j * log10(ratio); /* of a = b there */
     if (balance > 0)
         decades = balance + q * (double)(g->steps - 1) * log10(ratio);
     if (balance < 0)
         decades = balance - p * (double)(g->meshes - 1) * log10(ratio);
-    c[0] = br_random_decades(r, -3, 3);
+    c[0] = br_test_decades(r, -3, 3);
     c[1] = c[0] * pow(10, balance == 0 ? -decades : decades);
 }
 
@@ -99,55 +99,55 @@ static inline double br_grid_error(const struct br_grid *g, const double c[2], c
 }
 
 /* Makes the order of one axis change, to a lower one; returns the size at which it does. */
-static inline double br_grid_change(struct br_random *r, const struct br_grid_law *law,
+static inline double br_grid_change(struct br_test_random *r, const struct br_grid_law *law,
                                     struct br_grid *g)
 {
-    const int axis = (int)br_random_index(r, 2);
+    const int axis = (int)br_test_index(r, 2);
     const double sizes = (double)(axis ? g->steps : g->meshes), least = 1;
     if (law->changes == BR_GRID_ONE_ORDER)
         return 0;
     g->other[axis] = g->order[axis] = fmax(1.5, g->order[axis]);
-    g->order[axis] -= br_random_uniform(r, 0.4, 1);
-    const double from = law->changes == BR_GRID_KINK ? 1 + (double)br_random_index(r, 2)
-                                                     : br_random_uniform(r, least, 2.9);
+    g->order[axis] -= br_test_uniform(r, 0.4, 1);
+    const double from = law->changes == BR_GRID_KINK ? 1 + (double)br_test_index(r, 2)
+                                                     : br_test_uniform(r, least, 2.9);
     return pow(2, fmin(from, sizes - 3) + 1 - sizes);
 }
 
 /* Multiplies cells of a full grid: those of the largest k at the finest meshes, or any. */
-static inline void br_grid_blow(struct br_random *r, struct br_grid *g, size_t blown)
+static inline void br_grid_blow(struct br_test_random *r, struct br_grid *g, size_t blown)
 {
-    const bool corner = br_random_once_in(r, 2);
+    const bool corner = br_test_once_in(r, 2);
     for (size_t i = 0; i < blown; i++) {
         const size_t at =
-            corner ? (g->meshes - 1 - i % 2) * g->steps + i / 2 : br_random_index(r, g->rows);
-        g->e[at] = br_grid_printed(g->e[at] * pow(10, br_random_uniform(r, 0.7, 6)), 6);
+            corner ? (g->meshes - 1 - i % 2) * g->steps + i / 2 : br_test_index(r, g->rows);
+        g->e[at] = br_grid_printed(g->e[at] * pow(10, br_test_uniform(r, 0.7, 6)), 6);
     }
 }
 
-static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *law,
+static inline void br_grid_draw(struct br_test_random *r, const struct br_grid_law *law,
                                 struct br_grid *g)
 {
     static const double orders[] = {1, 1.5, 2, 3, 4};
     *g = (struct br_grid){
-        .meshes = law->least + br_random_index(r, law->most - law->least + 1),
-        .steps = law->least + br_random_index(r, law->most - law->least + 1),
-        .order = {orders[br_random_index(r, 5)], orders[br_random_index(r, 5)]},
+        .meshes = law->least + br_test_index(r, law->most - law->least + 1),
+        .steps = law->least + br_test_index(r, law->most - law->least + 1),
+        .order = {orders[br_test_index(r, 5)], orders[br_test_index(r, 5)]},
         .other = {NAN, NAN},
     };
-    const double ratio = 2, correlation = br_random_uniform(r, law->least_r, law->most_r);
-    double next[] = {br_random_uniform(r, -law->next, law->next),
-                     br_random_uniform(r, -law->next, law->next)};
-    const double h0 = 1 / floor(br_random_uniform(r, 4, 20)), k0 = br_random_decades(r, -3, 0);
+    const double ratio = 2, correlation = br_test_uniform(r, law->least_r, law->most_r);
+    double next[] = {br_test_uniform(r, -law->next, law->next),
+                     br_test_uniform(r, -law->next, law->next)};
+    const double h0 = 1 / floor(br_test_uniform(r, 4, 20)), k0 = br_test_decades(r, -3, 0);
     double c[2];
     for (int a = 0; a < 2 && law->lower; a++)
-        next[a] = br_random_uniform(r, 1, 8);
+        next[a] = br_test_uniform(r, 1, 8);
     br_grid_balance(r, g, law->balance, ratio, c);
     const double t = br_grid_change(r, law, g);
     const double finest =
         br_grid_error(g, c, next, fmax(0, correlation), pow(ratio, 1 - (double)g->meshes),
                       pow(ratio, 1 - (double)g->steps), t);
-    const double level = fabs(law->floor) * br_random_uniform(r, 0.3, 1) * finest;
-    const double growth = br_random_uniform(r, 0.5, 3);
+    const double level = fabs(law->floor) * br_test_uniform(r, 0.3, 1) * finest;
+    const double growth = br_test_uniform(r, 0.5, 3);
     for (size_t i = 0; i < g->meshes; i++)
         for (size_t j = 0; j < g->steps; j++) {
             const double x = pow(ratio, -(double)i), y = pow(ratio, -(double)j);
@@ -233,7 +233,7 @@ enum { BR_GRID_CLASSES = sizeof br_grid_classes / sizeof *br_grid_classes };
 static inline struct br_grid br_grid_of(size_t class, uint64_t seed, size_t index)
 {
     struct br_grid g;
-    struct br_random r = br_random_of(seed * 1000 + class, index);
+    struct br_test_random r = br_test_random_of(seed * 1000 + class, index);
     br_grid_draw(&r, &br_grid_classes[class].law, &g);
     return g;
 }
@@ -270,21 +270,22 @@ static inline struct br_grid br_value_grid_of(size_t class, uint64_t seed, size_
                                               double *limit)
 {
     const struct br_value_class *law = &br_value_classes[class];
-    struct br_random random = br_random_of(seed * 1000 + 500 + class, index), *r = &random;
+    struct br_test_random random = br_test_random_of(seed * 1000 + 500 + class, index),
+                          *r = &random;
     static const double orders[] = {1, 1.5, 2};
     struct br_grid g = {
-        .meshes = 4 + br_random_index(r, 3),
-        .steps = law->line ? 1 : 4 + br_random_index(r, 3),
-        .order = {orders[br_random_index(r, 3)], orders[br_random_index(r, 3)]},
+        .meshes = 4 + br_test_index(r, 3),
+        .steps = law->line ? 1 : 4 + br_test_index(r, 3),
+        .order = {orders[br_test_index(r, 3)], orders[br_test_index(r, 3)]},
         .other = {NAN, NAN},
     };
-    *limit = br_random_uniform(r, -2, 2);
-    const double sign = br_random_once_in(r, 2) ? -1 : 1;
-    const double a = br_random_decades(r, -2, -0.5);
+    *limit = br_test_uniform(r, -2, 2);
+    const double sign = br_test_once_in(r, 2) ? -1 : 1;
+    const double a = br_test_decades(r, -2, -0.5);
     const double both = law->line ? 0 : sign * a;
-    const double b = both * br_random_decades(r, law->one ? -4 : -0.7, law->one ? -3 : 0.7);
+    const double b = both * br_test_decades(r, law->one ? -4 : -0.7, law->one ? -3 : 0.7);
     const double low = law->mixed > 0 ? law->mixed / 5 : -law->next, high = law->mixed + law->next;
-    const double c = br_random_uniform(r, low, high), d = br_random_uniform(r, low, high);
+    const double c = br_test_uniform(r, low, high), d = br_test_uniform(r, low, high);
     for (size_t i = 0; i < g.meshes; i++)
         for (size_t j = 0; j < g.steps; j++, g.rows++) {
             const double x = pow(2, -(double)i), y = pow(2, -(double)j);

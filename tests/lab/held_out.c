@@ -3,7 +3,7 @@
  * have been looked at since, the last ones have not. */
 #include "tests/lab/draw.h"
 
-static void evenoddfloor(struct br_random *r, struct br_error_line *s)
+static void evenoddfloor(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 7, 10, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -13,7 +13,7 @@ static void evenoddfloor(struct br_random *r, struct br_error_line *s)
 }
 
 /* The solver of the finest mesh stops before the error of the mesh is reached. */
-static void stopsearly(struct br_random *r, struct br_error_line *s)
+static void stopsearly(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 2, 3, 4);
@@ -23,7 +23,7 @@ static void stopsearly(struct br_random *r, struct br_error_line *s)
 }
 
 /* Meshes of a generator: their size is known to some per cent, and no mesh is within another. */
-static void notnested(struct br_random *r, struct br_error_line *s)
+static void notnested(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 4, 8);
     s->truth = PICK(r, 1, 2, 3);
@@ -38,7 +38,7 @@ static void notnested(struct br_random *r, struct br_error_line *s)
 }
 
 /* A rule of too few points adds an error of order 2 of either sign; order 3 or 4 is in front. */
-static void crime(struct br_random *r, struct br_error_line *s)
+static void crime(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = 2;
@@ -49,7 +49,7 @@ static void crime(struct br_random *r, struct br_error_line *s)
 }
 
 /* A limiter clips extrema: 4/3 in the largest error, in waves with the phase of the mesh. */
-static void limiter(struct br_random *r, struct br_error_line *s)
+static void limiter(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 4. / 3, 5. / 3);
@@ -63,7 +63,7 @@ static void limiter(struct br_random *r, struct br_error_line *s)
 }
 
 /* A boundary layer: order 1/2 while it is not resolved. */
-static void boundarylayer(struct br_random *r, struct br_error_line *s)
+static void boundarylayer(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -75,7 +75,7 @@ static void boundarylayer(struct br_random *r, struct br_error_line *s)
     }
 }
 
-static void lockingfloor(struct br_random *r, struct br_error_line *s)
+static void lockingfloor(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 8, 10, 2);
     s->truth = PICK(r, 1, 2);
@@ -89,7 +89,7 @@ static void lockingfloor(struct br_random *r, struct br_error_line *s)
 }
 
 /* The error of the time step stays, with either sign, and scatters a little. */
-static void timefloor(struct br_random *r, struct br_error_line *s)
+static void timefloor(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = PICK(r, 2, 3, 4);
@@ -100,13 +100,13 @@ static void timefloor(struct br_random *r, struct br_error_line *s)
 }
 
 /* Values in single precision, whose round-off grows with the number of steps. */
-static void single(struct br_random *r, struct br_error_line *s)
+static void single(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 12, 2);
     s->values = true;
     s->limit = uniform(r, .5, 3) * PICK(r, -1, 1);
     s->truth = PICK(r, 1, 2, 3);
-    const double d = br_random_decades(r, -2, 0), g = PICK(r, 0, .5);
+    const double d = br_test_decades(r, -2, 0), g = PICK(r, 0, .5);
     EACH_ROW
     {
         const double x = s->h[i] / s->h[0];
@@ -116,7 +116,7 @@ static void single(struct br_random *r, struct br_error_line *s)
 }
 
 /* Straight edges for a curved boundary: order 2 in one norm with order 4 of the elements. */
-static void geometry(struct br_random *r, struct br_error_line *s)
+static void geometry(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     s->truth = 2;
@@ -128,7 +128,7 @@ static void geometry(struct br_random *r, struct br_error_line *s)
 }
 
 /* Adaptive meshes: sizes of unknowns, and a constant that drifts. */
-static void drifts(struct br_random *r, struct br_error_line *s)
+static void drifts(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 8, 14);
     s->truth = PICK(r, 1, 2, 3);
@@ -146,11 +146,11 @@ static void drifts(struct br_random *r, struct br_error_line *s)
 /* ---- the last ones ---- */
 
 /* Two fields in one norm, of orders 2 and 3. */
-static void twofields(struct br_random *r, struct br_error_line *s)
+static void twofields(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 4, 8, 2);
     s->truth = 2;
-    const double c = constant_of(r), a = br_random_decades(r, -.7, .7);
+    const double c = constant_of(r), a = br_test_decades(r, -.7, .7);
     EACH_ROW
     {
         const double x = s->h[i] / s->h[0];
@@ -159,7 +159,7 @@ static void twofields(struct br_random *r, struct br_error_line *s)
 }
 
 /* Cells cut by a boundary: the constant depends on how it cuts. */
-static void cutcells(struct br_random *r, struct br_error_line *s)
+static void cutcells(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 10, 2);
     s->truth = PICK(r, 1, 2, 3);
@@ -168,7 +168,7 @@ static void cutcells(struct br_random *r, struct br_error_line *s)
 }
 
 /* Numbers of elements that are rounded, of ratio 1.5. */
-static void roundedmeshes(struct br_random *r, struct br_error_line *s)
+static void roundedmeshes(struct br_test_random *r, struct br_error_line *s)
 {
     s->rows = whole(r, 5, 9);
     s->truth = PICK(r, 1, 2, 4);
@@ -183,7 +183,7 @@ static void roundedmeshes(struct br_random *r, struct br_error_line *s)
 }
 
 /* Waves that coarse meshes do not resolve: the error of phase is larger there. */
-static void pollution(struct br_random *r, struct br_error_line *s)
+static void pollution(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = 2;
@@ -196,7 +196,7 @@ static void pollution(struct br_random *r, struct br_error_line *s)
 }
 
 /* The solver stops at a share of the first residual: a level that scatters, on the last rows. */
-static void tolerance(struct br_random *r, struct br_error_line *s)
+static void tolerance(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 6, 9, 2);
     s->truth = PICK(r, 2, 3, 4);
@@ -206,7 +206,7 @@ static void tolerance(struct br_random *r, struct br_error_line *s)
 }
 
 /* Time steps reduce the order at boundaries: a term of half an order less, small at first. */
-static void reduction(struct br_random *r, struct br_error_line *s)
+static void reduction(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 8, 2);
     const double p = PICK(r, 2, 3);
@@ -220,7 +220,7 @@ static void reduction(struct br_random *r, struct br_error_line *s)
 }
 
 /* Waves in log h, as of a corner with a complex exponent. */
-static void logwaves(struct br_random *r, struct br_error_line *s)
+static void logwaves(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 9, 2);
     s->truth = PICK(r, 1, 1.5, 2);
@@ -230,7 +230,7 @@ static void logwaves(struct br_random *r, struct br_error_line *s)
 }
 
 /* Values of few digits, as of a paper's table. */
-static void fewdigits(struct br_random *r, struct br_error_line *s)
+static void fewdigits(struct br_test_random *r, struct br_error_line *s)
 {
     mesh_sequence(r, s, 5, 7, 2);
     s->truth = PICK(r, 1, 2);

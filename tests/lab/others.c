@@ -2,6 +2,7 @@
 #include "tests/lab/others.h"
 
 #include <gsl/gsl_cdf.h>
+#include <math.h>
 #include <stdlib.h>
 
 enum {
@@ -131,7 +132,7 @@ static struct br_other_interval middle(double *number, size_t n)
 /* The order or the limit of fits to the fitted line with its own residuals drawn again. */
 static size_t bootstrap(struct fit f, bool sums, size_t times, double *found)
 {
-    struct br_random random = br_random_of(20261128, f.rows);
+    struct br_test_random random = br_test_random_of(20261128, f.rows);
     const size_t unknowns = f.powers ? 3 : 2;
     if (f.rows <= unknowns)
         return 0;
@@ -140,7 +141,7 @@ static size_t bootstrap(struct fit f, bool sums, size_t times, double *found)
     for (size_t k = 0; k < times; k++) {
         struct fit g = f;
         for (size_t i = 0; i < f.rows; i++) {
-            const size_t from = br_random_index(&random, f.rows);
+            const size_t from = br_test_index(&random, f.rows);
             g.y[i] += more * residual(&f, from) - residual(&f, i);
         }
         sums ? find_sums(&g) : find(&g);

@@ -547,6 +547,7 @@ struct copy {
     const char *heading[MOST_FIELDS];
     size_t column[MOST_FIELDS]; /* which column comes where */
     bool reversed;              /* the rows */
+    bool turned;                /* rows become columns */
     const char *separator;
 };
 
@@ -554,10 +555,13 @@ static void write_copy(const struct copy *copy, char text[LONGEST])
 {
     size_t used = 0;
     const struct grid *g = copy->g;
-    for (size_t i = 0; i < g->rows; i++) {
-        const size_t row = i && copy->reversed ? g->rows - i : i;
-        for (size_t j = 0; j < g->columns; j++) {
-            const size_t column = copy->column[j];
+    const size_t lines = copy->turned ? g->columns : g->rows;
+    const size_t fields = copy->turned ? g->rows : g->columns;
+    for (size_t i = 0; i < lines; i++) {
+        for (size_t j = 0; j < fields; j++) {
+            const size_t below = copy->turned ? j : i;
+            const size_t row = below && copy->reversed ? g->rows - below : below;
+            const size_t column = copy->column[copy->turned ? i : j];
             const char *field = row ? g->field[row][column] : copy->heading[column];
             used += (size_t)snprintf(text + used, LONGEST - used, "%s%s", j ? copy->separator : "",
                                      *field ? field : "-");
@@ -648,6 +652,13 @@ static bool with_tabs(struct copy *copy, const struct expected *e)
     return e->names > 0;
 }
 
+static bool turn(struct copy *copy, const struct expected *e)
+{
+    const size_t size = find_column(copy->g, first_axis(e)->column);
+    copy->turned = true;
+    return size < copy->g->columns && isalpha((unsigned char)*copy->heading[size]);
+}
+
 static bool hide(struct copy *copy, const struct expected *e)
 {
     static const char *const hidden[] = {"c1", "c2", "c3", "c4", "c5", "c6", "c7", "c8"};
@@ -695,6 +706,7 @@ static const struct {
     {"blanks", with_blanks, true, 0},
     {"bars", with_bars, true, 0},
     {"tabs", with_tabs, true, 0},
+    {"rows as columns", turn, true, 0},
     {"all headings hidden but rates", hide, false, 0},
     {"headings of size and error swapped", swap, false, 2},
     {"h called n, n called h", misname, false, 2},

@@ -5,7 +5,6 @@
 
 #include "study/extremes/extremes.h"
 #include "tests/exact_points.h"
-#include "tests/lab/step_matrix.h"
 
 /* Chooses even points of `count`, where an element has `parts`, and then points nearer and nearer
  * to the tip, which is the last. The even points lie in all parts of elements: nodes alone may be
@@ -45,6 +44,20 @@ struct recorder {
     double *nodal; /* displacements, then velocities */
 };
 
+/* The displacement at xi, 0 to 1, in the element whose nodal unknowns (solver/field.h) begin at
+ * `at`; slope (out): of a beam h w_x. */
+static double nodal_value(enum br_field_kind kind, size_t unknowns, const double *at, double xi,
+                          double *slope)
+{
+    const double *end = at + unknowns, r = 1 - xi;
+    *slope = 0;
+    if (kind == BR_AXIAL)
+        return at[0] * r + end[0] * xi - (unknowns == 2 ? end[1] * xi * r : 0);
+    *slope = 6 * xi * r * (end[0] - at[0]) + r * (1 - 3 * xi) * at[1] - xi * (2 - 3 * xi) * end[1];
+    return (1 + 2 * xi) * r * r * at[0] + xi * r * r * at[1] + xi * xi * (3 - 2 * xi) * end[0] -
+           xi * xi * r * end[1];
+}
+
 /* slope: L w_x/4, m. */
 static void keep_slope(struct br_track *t, size_t point, double slope)
 {
@@ -68,7 +81,7 @@ static void record_field(struct recorder *l, const struct br_march *march, enum 
         const double xi = (double)(part - element * parts) / (double)parts;
         double slope;
         t->value[kind][t->sampled][p] =
-            br_nodal_value(kind, unknowns, l->nodal + element * unknowns, xi, &slope);
+            nodal_value(kind, unknowns, l->nodal + element * unknowns, xi, &slope);
         if (kind == BR_BENDING)
             keep_slope(t, p, slope * (double)f->n / 4);
     }
