@@ -67,7 +67,7 @@ def ninja(build, *targets):
 def copy_tree(copy):
     """Returns the tree, its build, and a build that counts which lines run."""
     tree, build, covered = copy / "tree", copy / "build", copy / "covered"
-    for name in output_of("git", "ls-files", cwd=SOURCE).splitlines():
+    for name in filter(lambda n: (SOURCE / n).is_file(), output_of("git", "ls-files", cwd=SOURCE).splitlines()):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         if not ((tree / name).exists() and filecmp.cmp(SOURCE / name, tree / name, shallow=False)):
             shutil.copy(SOURCE / name, tree / name)
