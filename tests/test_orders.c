@@ -466,7 +466,7 @@ TEST(test_degrees)
         free(text);
     }
     static const char *const powers[] = {
-        "p,e\n1,5\n2,.1\n3,.01\n4,.001\n5,1e-4\n6,1e-5\n7,1e-6\n", /* the first is none */
+        "p,e\n1,5\n2,.1\n3,.01\n4,.001\n5,1e-4\n6,1e-5\n7,1e-6\n",  /* the first is none */
         "p,e\n1,1\n2,.0625\n3,.0123\n4,.0039\n5,.0016\n6,.00077\n", /* p^-4 */
         "p,e\n1,6.25e-2\n2,1.2346e-2\n3,3.9063e-3\n4,1.6e-3\n5,7.716e-4\n6,4.1649e-4\n"
         "7,2.4414e-4\n8,1.5242e-4\n"}; /* (p + 1)^-4 */

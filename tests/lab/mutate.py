@@ -92,8 +92,8 @@ def run(test, copy, seconds, **more):
     seconds, or where it only waits."""
     words = [*SPACES, "sh", "-c", ALONE] if CAN_BE_ALONE else ["sh", "-c", RUN]
     words += [copy, test["workdir"] or copy / "build", int(seconds) + 1, *test["cmd"]]
-    process = subprocess.Popen([str(word) for word in words],
-                               env={**os.environ, **test["env"], "CMOCKA_TEST_ABORT": "1", "CCACHE_DISABLE": "1", **more},
+    usual = {**os.environ, "CMOCKA_TEST_ABORT": "1", "CCACHE_DISABLE": "1"}
+    process = subprocess.Popen([str(word) for word in words], env={**usual, **test["env"], **more},
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
     limit = threading.Timer(60 + 20 * seconds, process.kill)
     limit.start()
