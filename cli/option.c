@@ -163,10 +163,28 @@ const char *br_read_time(const char *text, double duration, double *seconds)
     return *rest == '\0' || *rest == ',' ? rest : NULL;
 }
 
+enum br_status br_times_check(const char *text, struct br_error *err)
+{
+    bool bare = false, scaled = false;
+    double seconds, number;
+    const char *end;
+    for (const char *rest = text; rest && (end = br_read_time(rest, 1, &seconds)); rest = end) {
+        const char *unit = br_read_number(rest + strspn(rest, " "), &number);
+        bare |= unit && number != 0 && unit + strspn(unit, " ") == end;
+        scaled |= unit && number != seconds;
+        end = *end ? end + 1 : NULL;
+    }
+    return bare && scaled ? br_fail(err, BR_BAD_INPUT,
+                                    "found '%s', expected a unit with each time or none", text)
+                          : BR_OK;
+}
+
 static enum br_status check_times(const struct br_option *row, const char *text,
                                   struct br_error *err)
 {
     const bool one = strcmp(row->argument, "LIST") != 0;
+    if (br_times_check(text, err))
+        return err->status;
     for (const char *rest = text;; rest++) {
         double seconds;
         const char *end = br_read_time(rest, 1, &seconds);

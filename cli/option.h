@@ -190,4 +190,7 @@ double br_option_number(const struct br_options *o, enum br_option_id id, double
  * the end or a comma; NULL: it is no time. */
 const char *br_read_time(const char *text, double duration, double *seconds);
 
+/* Refuses a list in which one time has no unit and another one a unit that is not s: "50,25 ms". */
+enum br_status br_times_check(const char *text, struct br_error *err);
+
 #endif

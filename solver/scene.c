@@ -52,6 +52,11 @@ static enum br_status check_laws(const struct br_scene *s, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT,
                        "%s friction takes its bound from the contact, which is not modelled",
                        br_friction_models[s->friction.law].title);
+    if (br_friction_follows_contact(&s->friction) && br_friction_bound(s, 0) != 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s friction has a bound of %g N without penetration, expected none, as its "
+                       "bound follows the contact",
+                       br_friction_models[s->friction.law].title, br_friction_bound(s, 0));
     return BR_OK;
 }
 

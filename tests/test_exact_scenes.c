@@ -124,6 +124,19 @@ TEST(test_estimates)
     }
 }
 
+/* The force of a closed contact is c_H (u - g), and so is its error that of the tip times c_H; it
+ * leaves out layers after an event, where the tip may be a little farther off. */
+TEST(test_error_of_a_force)
+{
+    const struct bundled *b = find("impact");
+    struct solved loose = solve(&b->scene, 1e-3);
+    const struct br_exact_size error = br_exact_report(loose.exact, BR_AXIAL).error;
+    const double most = b->scene.contact.stiffness * error.displacement;
+    AT_MOST(error.force, most * (1 + 1e-9));
+    AT_MOST(0.4 * most, error.force);
+    release(&loose);
+}
+
 /* ---- events ---- */
 
 static size_t count_phase(const struct br_exact *exact, enum br_phase phase)

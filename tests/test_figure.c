@@ -295,6 +295,12 @@ TEST(test_sizes_on_axes)
     br_made_report(&m, false);
     m.scene.length = 2;
     m.scene.duration = 0.5;
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        struct br_observed_order *o = &m.report.observed[BR_PART_TOTAL][axis];
+        *o = (struct br_observed_order){.asked = true, .points = 4};
+        for (int i = 0; i < 4; i++)
+            o->point[i] = (struct br_point){.z = (axis ? 0.5 : 2) / (10 << i), .error = 1};
+    }
     for (size_t i = 0; i < 3; i++) {
         struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
         for (const struct br_panel *p = f.panel; p < f.panel + f.panels; p++) {
@@ -311,6 +317,40 @@ TEST(test_sizes_on_axes)
         br_figure_clear(&f);
     }
     assert_true(panels[0] > 0 && panels[1] > 0);
+    br_made_report_clear(&m);
+}
+
+/* Residuals of a fit to errors against a fine run, whose own mesh and steps the model knows. */
+TEST(test_residuals)
+{
+    struct br_made_report m;
+    br_made_report(&m, false);
+    struct br_joint_fit *fit = &m.report.fits[BR_PART_TOTAL].joint;
+    m.scene.length = 2;
+    m.scene.duration = 0.5;
+    m.study.reference_kind = &br_reference_fine;
+    m.study.reference = (struct br_resolution){800, 1600};
+    fit->kind = BR_JOINT_BOTH;
+    fit->r.value = 0;
+    for (int axis = 0; axis < BR_AXES; axis++)
+        fit->c[axis].value = fit->order[axis].value = 1;
+    for (size_t c = 0; c < BR_MADE_CELLS; c++) {
+        struct br_cell *cell = &m.study.cell[c];
+        const double of_h = 2.0 / (double)cell->at.n - 2.0 / 800,
+                     of_k = 0.5 / (double)cell->at.steps - 0.5 / 1600;
+        cell->error[BR_PART_TOTAL] = 1.25 * hypot(of_h, of_k);
+    }
+    struct br_figure f = br_convergence_draw(br_convergence_pictures[2], &m.report);
+    size_t drawn = 0;
+    assert_int_equal(f.panels, 2);
+    for (size_t i = 0; i < f.panel[1].count; i++)
+        for (size_t j = 0; j < f.panel[1].series[i]->count; j++)
+            if (!isnan(f.panel[1].series[i]->point[j].y)) {
+                CLOSE(f.panel[1].series[i]->point[j].y, 0.25, 1e-12);
+                drawn++;
+            }
+    assert_int_equal(drawn, BR_MADE_CELLS - 1); /* one failed */
+    br_figure_clear(&f);
     br_made_report_clear(&m);
 }
 

@@ -211,24 +211,34 @@ TEST(test_goals)
     }
 }
 
-/* Meshes and steps that are given are tried as they are, also those that are coarse. */
+/* Meshes, steps and tolerances that are given are tried as they are, also those that are coarse. */
 TEST(test_lists_are_kept)
 {
     static const size_t n[] = {40, 20}, steps[] = {5, 7};
+    static const double tolerance[] = {2e-3, 3e-7};
     struct br_error err = {0};
     enum br_status status;
     struct br_scene scene = br_test_bundled("example2");
-    for (int kind = 0; kind < 3; kind++) {
-        const struct br_trade_grid grid = {
-            .n = n, .steps = steps, .n_count = kind != 1 ? 2 : 0, .step_count = kind != 0 ? 2 : 0};
+    for (int kind = 0; kind < 4; kind++) {
+        const bool of_tolerances = kind == 3;
+        const struct br_trade_grid grid = {.n = n,
+                                           .steps = steps,
+                                           .tolerance = tolerance,
+                                           .n_count = kind == 0 || kind == 2 ? 2 : 0,
+                                           .step_count = kind == 1 || kind == 2 ? 2 : 0,
+                                           .tolerances = of_tolerances ? 2 : 0};
         struct br_trade *t =
-            make(&scene, (struct br_trade_goal){.error = 1e-3}, &grid, 2, &status, &err);
+            make(&scene, (struct br_trade_goal){.error = of_tolerances ? 1e-6 : 1e-3}, &grid,
+                 of_tolerances ? ALL : 2, &status, &err);
         MUST(status);
         assert_true(t->chosen < t->count);
         for (const struct br_trial *o = t->trial; o < t->trial + t->count; o++) {
-            assert_true(kind == 1 || o->at.n == n[0] || o->at.n == n[1]);
-            assert_true(kind == 0 || o->at.steps == steps[0] || o->at.steps == steps[1]);
+            assert_true(kind == 1 || of_tolerances || o->at.n == n[0] || o->at.n == n[1]);
+            assert_true(kind == 0 || of_tolerances || o->at.steps == steps[0] ||
+                        o->at.steps == steps[1]);
             assert_true(kind != 0 || o->at.steps >= 10);
+            assert_true(!of_tolerances || o->tolerance == 0 || o->tolerance == tolerance[0] ||
+                        o->tolerance == tolerance[1]);
         }
         drop(t);
     }

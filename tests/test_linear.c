@@ -235,8 +235,8 @@ static void refuses_march(const struct br_scene *scene, const struct br_method *
     assert_null(march);
 }
 
-/* A new row without costs is the solver that it says, and no other one takes the elements that it
- * has not. */
+/* A new row without costs is the solver that it says, its marches are not free, and no other one
+ * takes the elements that it has not. */
 TEST(test_new_row)
 {
     const struct br_linear_solver row = {
@@ -246,6 +246,7 @@ TEST(test_new_row)
     struct br_method method = br_method_default();
     method.solver = &row;
     assert_ptr_equal(br_linear_solver_taken(&row, &rod, 0), &row);
+    CLOSE(br_linear_solver_cost(&row, &rod, 1), br_linear_solver_cost(&br_plain, &rod, 1), 0);
     refuses_march(&scene, &method, 4, 4, "'mine' has no bending elements, expected one of riccati");
     method.axial_degree = 2;
     refuses_march(&scene, &method, 4, 4, "'mine' has no quadratic axial elements, expected");

@@ -7,6 +7,8 @@
 
 #include <malloc.h>
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
@@ -67,6 +69,78 @@ TEST(test_memory)
     br_function_free(&scene.bending.load.term[0].time);
     br_function_free(&scene.axial.load.term[0].space);
     br_function_free(&scene.bending.load.term[0].space);
+}
+
+/* ---- made control groups ---- */
+
+/* The files of the system that are made here; others, as /proc/meminfo, are the real ones. */
+static const struct made {
+    const char *name, *text;
+} * made;
+
+/* The second one by glibc's name for it. */
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen64(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode)
+{
+    for (const struct made *m = made; m && m->name; m++)
+        if (strcmp(m->name, path) == 0)
+            return fmemopen((void *)(uintptr_t)m->text, strlen(m->text), mode);
+    return made && strstr(path, "cgroup") ? NULL : __real_fopen(path, mode);
+}
+
+FILE *__wrap_fopen64(const char *path, const char *mode)
+{
+    return __wrap_fopen(path, mode);
+}
+
+/* What the process's own group, and those around it, leave of their limits. */
+TEST(test_control_groups)
+{
+#define TOP "/sys/fs/cgroup"
+    static const struct {
+        struct made file[8];
+        double left;
+    } rows[] = {
+        {{{"/proc/self/cgroup", "0::/\n"},
+          {TOP "//memory.max", "5000000\n"},
+          {TOP "//memory.current", "2000000\n"}},
+         3e6},
+        {{{"/proc/self/cgroup", "0::/user/me\n"}, /* its own */
+          {TOP "/user/me/memory.max", "5000000\n"},
+          {TOP "/user/me/memory.current", "2000000\n"},
+          {TOP "/user/memory.max", "9000000\n"},
+          {TOP "/user/memory.current", "2500000\n"}},
+         3e6},
+        {{{"/proc/self/cgroup", "0::/user/me\n"}, /* one around it */
+          {TOP "/user/me/memory.max", "max\n"},
+          {TOP "/user/me/memory.current", "2000000\n"},
+          {TOP "/user/memory.max", "9000000\n"},
+          {TOP "/user/memory.current", "8500000\n"}},
+         5e5},
+        {{{"/proc/self/cgroup", "0::/\n"}, /* files that are only cached give way */
+          {TOP "/memory.max", "5000000\n"},
+          {TOP "/memory.current", "4900000\n"},
+          {TOP "/memory.stat", "anon 100\nfile 4800000\ninactive_file 4000000\n"}},
+         4.1e6},
+        {{{"/proc/self/cgroup", "0::/\n"}, /* more than all */
+          {TOP "/memory.max", "5000000\n"},
+          {TOP "/memory.current", "5100000\n"}},
+         0},
+        {{{"/proc/self/cgroup", "9:name=systemd:/\n4:memory:/me\n0::/other\n"}, /* version 1 */
+          {TOP "/memory/me/memory.limit_in_bytes", "7000000\n"},
+          {TOP "/memory/me/memory.usage_in_bytes", "6000000\n"},
+          {TOP "/memory/me/memory.stat", "inactive_file 9\ntotal_inactive_file 500000\n"}},
+         1.5e6},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        made = rows[i].file;
+        const double left = br_memory_available();
+        made = NULL;
+        if (left != rows[i].left)
+            fail_msg("row %zu: %.17g bytes are left, expected %g", i, left, rows[i].left);
+    }
 }
 
 TEST(test_refused)

@@ -304,6 +304,11 @@ TEST(test_lists_are_tried)
     CLOSE(br_trial_method(&t->trial[4]).tolerance, 1e-7, 1e-20);
     CLOSE(br_time_step(&scene, t->trial[0].at.steps), 0.1, 1e-15);
     drop(t);
+    t = laid_out(
+        &scene, "adaptive", /* beside steps that are not given */
+        &(struct br_trade_grid){.n = n, .tolerance = tolerance, .n_count = 1, .tolerances = 3});
+    assert_int_equal(t->count, 3);
+    drop(t);
     br_scene_clear(&scene);
 }
 
@@ -352,6 +357,60 @@ TEST(test_forecast)
         assert_true(!left || t->trial[i].estimated >= dearest);
         assert_true(isnan(br_trial_bound(&t->trial[i])) == left);
     }
+    drop(t);
+    br_scene_clear(&scene);
+}
+
+/* The marches whose pace was asked for. */
+enum { MOST_PACES = 16 };
+static struct {
+    size_t n, steps;
+    const char *scheme;
+} paced[MOST_PACES];
+static size_t paces;
+static bool counts_paces;
+
+enum br_status __real_br_march_pace(const struct br_planned_march *march, double *pace,
+                                    struct br_error *err);
+enum br_status __wrap_br_march_pace(const struct br_planned_march *march, double *pace,
+                                    struct br_error *err);
+enum br_status __wrap_br_march_pace(const struct br_planned_march *march, double *pace,
+                                    struct br_error *err)
+{
+    if (!counts_paces)
+        return __real_br_march_pace(march, pace, err);
+    assert_true(paces < MOST_PACES);
+    paced[paces].n = march->n;
+    paced[paces].steps = march->steps;
+    paced[paces++].scheme = march->method->scheme->name;
+    *pace = 1;
+    return BR_OK;
+}
+
+/* The dearest of all marches of equal steps shows their pace; that of steps by a tolerance is the
+ * method's own, at that tolerance. */
+TEST(test_paces)
+{
+    static const size_t n[] = {40, 160}, steps[] = {10, 1000};
+    static const double tolerance[] = {1e-2, 1e-4};
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_trade *t = laid_out(&scene, "euler+implicit,esdirk4+plain,adaptive,adaptive+plain",
+                                  &(struct br_trade_grid){.n = n,
+                                                          .steps = steps,
+                                                          .tolerance = tolerance,
+                                                          .n_count = 2,
+                                                          .step_count = 2,
+                                                          .tolerances = 2});
+    paces = 0;
+    counts_paces = true;
+    MUST(br_trade_estimate(t, &err));
+    counts_paces = false;
+    assert_int_equal(paces, 5);
+    assert_int_equal(paced[0].steps, 1000);
+    assert_string_equal(paced[0].scheme, "esdirk4");
+    for (size_t i = 0; i < 5; i++)
+        assert_int_equal(paced[i].n, 160);
     drop(t);
     br_scene_clear(&scene);
 }

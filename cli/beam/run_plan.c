@@ -30,6 +30,9 @@ static enum br_status read_level(double t, const struct br_scene *scene, size_t 
 static enum br_status read_times(const char *text, struct br_run_plan *plan, struct br_error *err)
 {
     struct br_run_request *q = &plan->request;
+    struct br_error inner = {0};
+    if (br_times_check(text, &inner))
+        return br_fail(err, BR_BAD_INPUT, "--at: %s", inner.message);
     for (const char *rest = text; rest; rest = *rest ? rest + 1 : NULL) {
         double t;
         const char *end = br_read_time(rest, q->scene->duration, &t);

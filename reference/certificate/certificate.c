@@ -188,12 +188,19 @@ static double coulomb(const struct br_friction *f, double depth)
     return f->coefficient * depth;
 }
 
-/* The bounds as a reference has them. A law without a row gets NaN, which passes no check.
- * `steepest`: most that a bound grows with the depth, over its coefficient. */
+static double coulomb_slope(const struct br_friction *f)
+{
+    return f->coefficient;
+}
+
+/* The bounds, once more than solver/laws.c has them: a check may not use what it checks. A law
+ * without a row gets NaN, which passes no check. `steepest`: the most that a bound grows with the
+ * depth, N/m; NULL: it does not follow it. */
 static const struct {
     double (*bound)(const struct br_friction *friction, double depth);
-    double steepest;
-} friction_laws[BR_FRICTION_LAWS] = {[BR_TRESCA] = {tresca, 0}, [BR_COULOMB] = {coulomb, 1}};
+    double (*steepest)(const struct br_friction *friction);
+} friction_laws[BR_FRICTION_LAWS] = {
+    [BR_TRESCA] = {tresca, NULL}, [BR_COULOMB] = {coulomb, coulomb_slope}};
 
 /* h at that depth, which is not positive where there is no contact. */
 static double bound_at(const struct br_checked_step *s, double depth)
@@ -205,14 +212,15 @@ static double bound_at(const struct br_checked_step *s, double depth)
 /* h(t_n), from the nodal u_n. */
 static double bound_of(const struct br_checked_step *s)
 {
-    const bool follows = friction_laws[s->scene->friction.law].steepest > 0;
+    const bool follows = friction_laws[s->scene->friction.law].steepest;
     return bound_at(s, follows ? positive(depth_of(s)) : 0);
 }
 
 /* How the bound follows the depth, N/m. */
 static double steepness(const struct br_checked_step *s)
 {
-    return friction_laws[s->scene->friction.law].steepest * s->scene->friction.coefficient;
+    const struct br_friction *f = &s->scene->friction;
+    return friction_laws[f->law].steepest ? friction_laws[f->law].steepest(f) : 0;
 }
 
 /* Distance of the bound from `wanted`, N, less the round-off of the axial velocities: the march has

@@ -50,8 +50,9 @@ enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_pha
             return BR_FREE;
         return displacement > 0 || (displacement == 0 && velocity >= 0) ? BR_CLOSED : BR_OPEN;
     }
-    if (!(law->friction.coefficient > 0) || law->friction.law == BR_FRICTIONLESS)
-        return BR_FREE;
+    if (law->friction.law == BR_FRICTIONLESS ||
+        laws[law->friction.law].bound(&law->friction, 1) == 0)
+        return BR_FREE; /* no bound at a depth of 1 m: at none */
     if (law->axial && law->axial->tip[br_history_find(law->axial, t)].phase != BR_CLOSED)
         return BR_FREE;
     if (now != BR_FREE)

@@ -43,10 +43,17 @@ bool br_linear_solver_chooses(const struct br_linear_solver *row)
     return !row->axial && !row->axial_quadratic && !row->bending;
 }
 
+static bool has_cost(const struct br_linear_solver *row)
+{
+    return row->cost || row->step_cost > 0;
+}
+
 double br_linear_solver_cost(const struct br_linear_solver *row, const struct br_field *field,
                              double sums)
 {
     static const struct br_by_element sum = {0.65, 1.3, 1.3};
+    if (!has_cost(row)) /* a cost of 0 would let any march begin */
+        row = &br_plain;
     if (row->cost)
         return row->cost(field, sums);
     return row->step_cost + 42 * sums +
@@ -62,7 +69,7 @@ const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_sol
     const struct br_linear_solver *best = NULL;
     double least = INFINITY;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
-        const bool known = own_solver(*s, field) && ((*s)->cost || (*s)->step_cost > 0);
+        const bool known = own_solver(*s, field) && has_cost(*s);
         const double cost = known ? br_linear_solver_cost(*s, field, sums) : INFINITY;
         if (cost < least) {
             least = cost;

@@ -122,7 +122,7 @@ struct br_linear_solver {
     /* The measured time of a step of one stage for a field, ns, with the march's own work; sums:
      * passes over the states that the scheme adds to a stage (br_time_scheme_sums). NULL: by the
      * two members below, on an AMD EPYC with AVX-512 at about 3 GHz; where these are 0, too, the
-     * cost is not known, and no choice takes the row. */
+     * cost is not known: no choice takes the row, and that of `plain` stands for it. */
     double (*cost)(const struct br_field *field, double sums);
     double step_cost;                  /* ns, without sums: of a step and the start of its solve */
     struct br_by_element element_cost; /* and of each element */

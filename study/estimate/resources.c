@@ -25,11 +25,54 @@ static double read_bytes(const char *path, const char *word, double unit)
     return value;
 }
 
+/* Control groups, version 2 and 1: what is before the path of this process's group in its line of
+ * /proc/self/cgroup, and the files of a group. */
+static const struct groups {
+    const char *before, *folder, *limit, *used, *cached;
+} versions[] = {
+    {"::", "/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file "},
+    {":memory:", "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
+     "total_inactive_file "},
+};
+
+static double of_group(const struct groups *g, const char *path, const char *name, const char *word)
+{
+    char file[4400];
+    snprintf(file, sizeof file, "%s%s/%s", g->folder, path, name);
+    return read_bytes(file, word, 1);
+}
+
+/* What a group leaves. Files that are only cached give way. */
+static double left_by(const struct groups *g, const char *path)
+{
+    const double limit = of_group(g, path, g->limit, ""), used = of_group(g, path, g->used, "");
+    const double cached = of_group(g, path, "memory.stat", g->cached);
+    if (!isfinite(limit) || !isfinite(used))
+        return limit;
+    return fmin(limit, fmax(limit - used + (isfinite(cached) ? cached : 0), 0));
+}
+
+/* What this process's group and each group around it leave. */
 static double group_limit(void)
 {
-    const double most = read_bytes("/sys/fs/cgroup/memory.max", "", 1);
-    const double used = read_bytes("/sys/fs/cgroup/memory.current", "", 1);
-    return isfinite(most) && isfinite(used) ? fmax(most - used, 0) : most;
+    char line[4096];
+    double least = INFINITY;
+    FILE *file = fopen("/proc/self/cgroup", "r");
+    while (file && fgets(line, sizeof line, file))
+        for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {
+            const struct groups *g = &versions[i];
+            char *path = line + strcspn(line, ":");
+            if (strncmp(path, g->before, strlen(g->before)) != 0)
+                continue;
+            path += strlen(g->before);
+            for (char *end = path + strcspn(path, "\n"); end; end = strrchr(path, '/')) {
+                *end = '\0';
+                least = fmin(least, left_by(g, path));
+            }
+        }
+    if (file)
+        fclose(file);
+    return least;
 }
 
 /* The free part of the address space. */

@@ -146,7 +146,7 @@ static struct br_theory of_beam(const struct br_study *s)
     const struct br_theory bound = of_elements(&rod, BR_AXIAL);
     const struct br_friction *friction = &s->scene->friction;
     const bool exact = s->scene->density == 0 && s->method.axial_degree == 1;
-    if (!br_friction_follows_contact(friction) || friction->coefficient == 0 || exact ||
+    if (!br_friction_follows_contact(friction) || br_friction_bound(s->scene, 1) == 0 || exact ||
         isnan(t.order) || bound.order >= t.order)
         return t;
     const char *title = br_friction_models[friction->law].title;
