@@ -30,8 +30,8 @@ static enum br_status create_march(struct fine *f, enum br_field_kind kind,
 {
     const enum br_status status =
         br_march_create(&f->march[kind], r->scene, r->n, r->levels, &r->method, err);
-    if (!status)
-        br_march_stop_when(f->march[kind], r->stop, r->stop_self);
+    if (!status && r->observer)
+        br_march_stop_when(f->march[kind], r->observer->stop, r->observer->self);
     return status;
 }
 

@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 
+#include "base/observer.h"
 #include "solver/march.h"
 #include "solver/method.h"
 
@@ -20,11 +21,8 @@ struct br_reference_request {
     bool measured[2][BR_MEASURES]; /* by br_field_kind: what it will be sampled for */
     size_t mesh_count;             /* the meshes that it will be sampled on */
     const size_t *mesh;            /* mesh_count, elements; borrowed during create */
-    bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
-    void *stop_self;
-    void (*preparing)(void *self,
-                      double share); /* exact only: gets the share of the allowed work
-                                        that it may take; self: stop_self; may be NULL */
+    const struct br_observer *observer; /* NULL: nobody; `preparing`: of exact alone, of the allowed
+                                           work that it may take. Borrowed */
 };
 
 /* What a reference reports of its accuracy and cost. */

@@ -78,7 +78,7 @@ static real value_of(const struct br_node *n, const real *value, real x, real t)
     real a[3] = {0};
     if (n->operation <= BR_OP_T)
         return n->operation == BR_OP_NUMBER ? n->number : n->operation == BR_OP_X ? x : t;
-    for (unsigned k = 0; k < br_operation_arguments(n->operation); k++) {
+    for (unsigned k = 0; k < br_operations[n->operation].arguments; k++) {
         a[k] = value[n->argument[k]];
         if (!isfinite(a[k]))
             return NAN;

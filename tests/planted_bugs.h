@@ -803,7 +803,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(imbalance)", "br_number(r->energy_worst)"},
     {"part_of_a_count_is_taken", "option", "base/words.c", "golden refused",
      " && number == floor(number)", ""},
-    {"step_that_does_not_divide", "option", "cli/beam/run_plan.c", "golden refused",
+    {"step_that_does_not_divide", "option", "cli/beam/run.c", "golden refused",
      "if (fabs(position - nearest) <= 1e-6)", "if (fabs(position - nearest) <= 1)"},
     {"tolerance_goes_to_the_friction", "option", "study/scene/method_fields.c",
      "golden run_adaptive", "NUMBER(tolerance, tolerance, double)",
@@ -924,7 +924,7 @@ static const struct planted_bug planted_bugs[] = {
      "for (const char *line = old; next_name(&line, name);)",
      "unlinkat(o->parent, \"notes.csv\", 0);\n"
      "    for (const char *line = old; next_name(&line, name);)"},
-    {"a_week_is_no_warning", "default", "study/estimate/resources.c", "tests/test_resources",
+    {"a_week_is_no_warning", "default", "study/estimate/warnings.c", "tests/test_resources",
      "if (days > 1)", "if (days > 7)"},
     {"stiffnesses_on_the_last_mesh", "index", "study/extremes/stability.c",
      "tests/test_stability test_limit_of_columns", ".n = n[over_stiffness ? 0 : i],",

@@ -108,8 +108,7 @@ TEST(test_tight)
             const double slack = 12 * 2.3e-16 * fmax(fabs(f), fabs(g));
             if (!(bound.high - bound.low <= fabs(g - f) + slack))
                 fail_msg("%s at %.17g + %g: %.17g .. %.17g, but %.17g .. %.17g",
-                         br_operation_word((enum br_operation)o), x, w, bound.low, bound.high, f,
-                         g);
+                         br_operations[o].word, x, w, bound.low, bound.high, f, g);
         }
 }
 
@@ -148,7 +147,7 @@ static void check_tree(const struct br_tree *tree, const struct br_function *f, 
     if (holds(bound, value, exact))
         return;
     for (size_t i = 0; i < tree->count; i++)
-        printf("# %zu: %s %u %u %u %.17g\n", i, br_operation_word(tree->node[i].operation),
+        printf("# %zu: %s %u %u %u %.17g\n", i, br_operations[tree->node[i].operation].word,
                tree->node[i].argument[0], tree->node[i].argument[1], tree->node[i].argument[2],
                tree->node[i].number);
     fail_msg("%.17g, exactly %.21Lg, at x = %.17g, t = %.17g: outside of %.17g .. %.17g over %.17g "

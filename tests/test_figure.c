@@ -263,7 +263,7 @@ TEST(test_names)
     br_made_report(&m, false);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         m.report.name = bad[i];
-        f = br_convergence_draw(br_convergence_pictures[0], &m.report);
+        f = br_convergence_draw(&br_convergence_pictures[0], &m.report);
         REFUSED(br_figure_check(&f, &err), BR_BAD_INPUT, "expected the beginning of a file name");
         br_figure_clear(&f);
     }
@@ -279,7 +279,7 @@ TEST(test_many_curves)
     m.study.n_count = 1;
     m.study.k_count = 11;
     m.study.steps = steps;
-    struct br_figure f = br_convergence_draw(br_convergence_pictures[1], &m.report);
+    struct br_figure f = br_convergence_draw(&br_convergence_pictures[1], &m.report);
     assert_int_equal(f.panel[0].count, 11);
     for (size_t i = 0; i < 11; i++)
         assert_int_equal(f.panel[0].series[i]->pen, i % 2 ? BR_PEN_OTHERS : BR_PEN_CURVE);
@@ -302,7 +302,7 @@ TEST(test_sizes_on_axes)
             o->point[i] = (struct br_point){.z = (axis ? 0.5 : 2) / (10 << i), .error = 1};
     }
     for (size_t i = 0; i < 3; i++) {
-        struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+        struct br_figure f = br_convergence_draw(&br_convergence_pictures[i], &m.report);
         for (const struct br_panel *p = f.panel; p < f.panel + f.panels; p++) {
             const bool time = strncmp(p->x_label, "time step", 9) == 0;
             const double whole = time ? 0.5 : 2;
@@ -340,7 +340,7 @@ TEST(test_residuals)
                      of_k = 0.5 / (double)cell->at.steps - 0.5 / 1600;
         cell->error[BR_PART_TOTAL] = 1.25 * hypot(of_h, of_k);
     }
-    struct br_figure f = br_convergence_draw(br_convergence_pictures[2], &m.report);
+    struct br_figure f = br_convergence_draw(&br_convergence_pictures[2], &m.report);
     size_t drawn = 0;
     assert_int_equal(f.panels, 2);
     for (size_t i = 0; i < f.panel[1].count; i++)
@@ -381,8 +381,8 @@ static void print_study(FILE *out)
             o->point[0].flag = BR_FLAG_COARSE;
             o->point[3].flag = part ? BR_FLAG_FAILED : BR_FLAG_OUTLIER;
         }
-    for (size_t i = 0; br_convergence_pictures[i]; i++) {
-        const struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+    for (size_t i = 0; br_convergence_pictures[i].name; i++) {
+        const struct br_figure f = br_convergence_draw(&br_convergence_pictures[i], &m.report);
         for (size_t j = 0; j < f.panels; j++) /* residuals may be below zero */
             assert_true(f.panel[j].log_y == !strstr(f.panel[j].y_label, "joint fit"));
         (i == 0 ? print : print_data)(out, f);

@@ -77,7 +77,7 @@ static struct br_trade *make(const struct br_scene *scene, struct br_trade_goal 
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
     t->request = br_trial_request_default(scene);
-    MUST(br_named_methods_read("--methods", METHODS, &t->methods, &err));
+    MUST(br_named_methods_read(METHODS, &t->methods, &err));
     t->methods.count = methods;
     t->goal = goal;
     t->request.repeats = 1;

@@ -75,7 +75,7 @@ TEST(test_accuracy)
             const double error = error_of(found, oracle_operation(o, exact));
             if (!(error <= allowed(o, a)))
                 fail_msg("'%s' of %.17g, %.17g, %.17g is %.17g, off by %g units in the last place",
-                         br_operation_word(o), a[0], a[1], a[2], found, error);
+                         br_operations[o].word, a[0], a[1], a[2], found, error);
         }
 }
 
@@ -98,8 +98,7 @@ TEST(test_sets)
                     !(isnan(first[i]) && isnan(other[i])))
                     fail_msg(
                         "'%s' of %.17g, %.17g is %.17g by set %zu and %.17g by the portable one",
-                        br_operation_word((enum br_operation)o), a[0][i], a[1][i], other[i], set,
-                        first[i]);
+                        br_operations[o].word, a[0][i], a[1][i], other[i], set, first[i]);
         }
     }
 }

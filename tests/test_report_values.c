@@ -420,7 +420,7 @@ TEST(paper_is_beside_the_cheapest)
     struct br_trial trial[MADE];
     struct br_work_point point[MADE];
     assert_non_null(t);
-    MUST(br_named_methods_read("--methods", "euler,bdf2", &t->methods, &err));
+    MUST(br_named_methods_read("euler,bdf2", &t->methods, &err));
     t->request = br_trial_request_default(&scene);
     for (size_t i = 0; i < MADE; i++)
         trial[i] = (struct br_trial){.named = &t->methods.list[made[i].method],

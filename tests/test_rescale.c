@@ -8,7 +8,6 @@
 
 #include "rescale.h"
 #include "study/fit/fit.h"
-#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "study/run/run.h"
 #include "support.h"

@@ -294,7 +294,7 @@ TEST(test_refused)
         .norm = {&br_norm_l2},
         .norms = 1,
     };
-    REFUSED(br_split_run(&split, 1, NULL, &err), BR_BAD_INPUT, "n is 0");
+    REFUSED(br_split_run(&split, 1, NULL, &err), BR_BAD_INPUT, "at least one element");
     split.at = (struct br_resolution){10, 50};
     br_scene_clear(&scene);
     scene = br_test_bare(); /* no exact solution resolves so short a blow */

@@ -19,7 +19,7 @@ static enum br_status run(struct br_stability *s, const struct br_scene *scene, 
                           struct br_error *err)
 {
     struct br_named_methods named;
-    assert_int_equal(br_named_methods_read("--methods", methods, &named, err), BR_OK);
+    assert_int_equal(br_named_methods_read(methods, &named, err), BR_OK);
     const struct br_extremes_job job = {.scene = &scene,
                                         .scenes = 1,
                                         .n = few_n,
@@ -109,7 +109,7 @@ TEST(test_limit_of_columns)
     struct br_error err = {0};
     struct br_stability s;
     size_t below = 0;
-    MUST(br_named_methods_read("--methods", "euler+lagged,euler+lagged+p2", &named, &err));
+    MUST(br_named_methods_read("euler+lagged,euler+lagged+p2", &named, &err));
     MUST(br_stability_run(&s,
                           &(struct br_extremes_job){.scene = &one,
                                                     .scenes = 1,
@@ -178,7 +178,7 @@ TEST(test_broken_by)
     const struct br_scene *one = &scene;
     struct br_named_methods named;
     struct br_stability s;
-    MUST(br_named_methods_read("--methods", "bdf3", &named, &err));
+    MUST(br_named_methods_read("bdf3", &named, &err));
     scene.axial.stiffness = scene.length = scene.duration = scene.density = 1;
     scene.axial.viscosity = 0.01;
     scene.bending.modelled = false;

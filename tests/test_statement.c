@@ -70,7 +70,7 @@ static const size_t grid_n[] = {10, 20, 30, 40, 60}, grid_steps[] = {20, 50, 100
     X(SAID, reference_check, NULL, &br_reference_exact) \
     X(SAID, n_count, 2, 1) X(SAID, k_count, 2, 1) X(SAID, path, false, true) \
     X(SAID, n, grid_n, grid_n + 1) X(SAID, steps, grid_steps, grid_steps + 1) \
-    X(NONE, next_norm, NULL, NULL) X(NONE, engine, {0}, ) X(NONE, cell, NULL, NULL) \
+    X(NONE, next_norm, NULL, NULL) X(NONE, here, false, true) X(NONE, cell, NULL, NULL) \
     X(NONE, reference_report, unchecked, ) X(NONE, events, NULL, NULL) \
     X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
     X(NONE, reference_error, {0}, ) X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )

@@ -9,7 +9,6 @@
 
 #include "exact_points.h"
 #include "solver/scene.h"
-#include "study/grid/differences.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "support.h"

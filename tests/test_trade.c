@@ -103,7 +103,7 @@ TEST(test_names)
     };
     struct br_error err = {0};
     struct br_named_methods all;
-    MUST(br_named_methods_read("--methods", "euler,regularised+bdf2+umfpack+p2", &all, &err));
+    MUST(br_named_methods_read("euler,regularised+bdf2+umfpack+p2", &all, &err));
     assert_int_equal(all.count, 2);
     assert_false(all.list[0].method.contact->at_new_step);
     assert_true(br_trade_is_printed_method(&all.list[0]));
@@ -115,8 +115,7 @@ TEST(test_names)
     assert_int_equal(m->axial_degree, 2);
     assert_false(br_trade_is_printed_method(&all.list[1]));
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
-        REFUSED(br_named_methods_read("--methods", wrong[i].name, &all, &err), BR_BAD_INPUT,
-                wrong[i].refusal);
+        REFUSED(br_named_methods_read(wrong[i].name, &all, &err), BR_BAD_INPUT, wrong[i].refusal);
 }
 
 /* All schemes are there, and none twice that is the same in this scene. */
@@ -146,7 +145,7 @@ TEST(test_errors_are_a_study_s)
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_named_methods all;
-    MUST(br_named_methods_read("--methods", "euler+lagged,bdf2,bdf2+p2", &all, &err));
+    MUST(br_named_methods_read("euler+lagged,bdf2,bdf2+p2", &all, &err));
     struct br_trial trial[] = {
         {.named = &all.list[0], .at = {8, 20}},
         {.named = &all.list[1], .at = {8, 20}},
@@ -192,7 +191,7 @@ TEST(test_steps_without_common_levels)
     struct br_scene scene = br_test_bundled("example3");
     struct br_named_methods all;
     struct br_trial trial[COUNT], alone;
-    MUST(br_named_methods_read("--methods", "bdf2", &all, &err));
+    MUST(br_named_methods_read("bdf2", &all, &err));
     struct br_trial_request request = br_trial_request_default(&scene);
     request.repeats = 1;
     for (size_t i = 0; i < COUNT; i++)
@@ -219,7 +218,7 @@ TEST(test_ends)
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_named_methods all;
-    MUST(br_named_methods_read("--methods", "euler+regularised,euler,euler+implicit", &all, &err));
+    MUST(br_named_methods_read("euler+regularised,euler,euler+implicit", &all, &err));
     scene.friction.regularisation = 0; /* so that the first has no mu */
     struct br_trial trial[] = {
         {.named = &all.list[0], .at = {8, 10}},
@@ -252,7 +251,7 @@ static struct br_trade *laid_out(const struct br_scene *scene, const char *metho
     struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
-    MUST(br_named_methods_read("--methods", methods, &t->methods, &err));
+    MUST(br_named_methods_read(methods, &t->methods, &err));
     t->request = br_trial_request_default(scene);
     MUST(br_trade_lay_out(t, grid, &err));
     return t;

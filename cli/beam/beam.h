@@ -6,11 +6,11 @@
 #include "cli/command.h"
 #include "study/scene/method_fields.h"
 
-extern const struct br_beam br_beam;
+extern const struct br_beam br_beam; /* topics.c */
 
 /* ---- options (option_rows.c) ---- */
 
-extern const struct br_words br_norm_words, br_reference_words;
+extern const struct br_words br_reference_words;
 
 /* Adds the options of the beam that a command takes behind `count` others. */
 size_t br_beam_add_options(const struct br_command *command, struct br_option row[BR_OPTIONS],

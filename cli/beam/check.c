@@ -2,8 +2,6 @@
 /* beamrate check SCENE... | --all: whether scenes still converge as they should. */
 #include "cli/check.h"
 
-#include <string.h>
-
 #include "cli/beam/session.h"
 #include "cli/command.h"
 #include "study/scene/file.h"

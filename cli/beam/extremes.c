@@ -169,7 +169,7 @@ static enum br_status read_request(struct extremes_run *r, struct br_error *err)
         .methods = &r->methods,
     };
     if (choose_parts(r, err) || check_options(r, err) ||
-        (methods && br_named_methods_read("--methods", methods, &r->methods, err)))
+        (methods && br_named_methods_read(methods, &r->methods, err)))
         return err->status;
     for (size_t i = 0; i < r->parts; i++)
         if (open_scenes(r, &r->part[i], err))

@@ -19,7 +19,7 @@ struct br_extremes_output {
 #define BR_ACCEPTS(option) (1ull << BR_OPT_##option)
 _Static_assert(BR_OPT_METHOD < 64, "a bit for each option");
 
-enum { BR_EXTREMES_SCENES = 2 };
+enum { BR_EXTREMES_SCENES = BR_FLOOR_SCENES };
 
 struct br_extremes_experiment {
     const char *name;                      /* one word, as on the command line, and of its files */

@@ -17,7 +17,7 @@ static const char *reference_syntax(size_t row)
     return reference_name(row) ? br_references[row]->syntax : NULL;
 }
 
-const struct br_words br_norm_words = {norm_name, norm_title, NULL};
+static const struct br_words norm_words = {norm_name, norm_title, NULL};
 const struct br_words br_reference_words = {reference_syntax, reference_title, NULL};
 
 size_t br_registries(struct br_registry list[BR_REGISTRIES])
@@ -30,7 +30,7 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
     }
     list[count++] =
         (struct br_registry){"reference", "what errors are measured against", &br_reference_words};
-    list[count++] = (struct br_registry){"norm", "norms of the error", &br_norm_words};
+    list[count++] = (struct br_registry){"norm", "norms of the error", &norm_words};
     list[count++] = (struct br_registry){"format", "formats of the results", &br_format_words};
     return count;
 }
@@ -76,7 +76,7 @@ static const struct br_option rows[] = {
          {BR_FOR_TRADE, .more = "exact is the default; fine:N,K marches the scheme of the highest "
                                 "order, and is not possible with a goal."})},
     {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error", "l2", BR_TAKES_WORD_LIST,
-     .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
+     .words = &norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
      .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip.",
      OWN({BR_FOR_TRADE, .more = "One norm; with --split, several."})},
     {BR_OPT_METHODS, "methods", 0, "LIST",

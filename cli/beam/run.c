@@ -5,14 +5,174 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "cli/beam/run.h"
+#include "cli/beam/session.h"
+#include "cli/beam/study_request.h"
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "plots/beam/pictures.h"
 #include "study/estimate/prediction.h"
 #include "study/ranks/ranks.h"
+#include "study/run/run.h"
+#include "study/scene/method_fields.h"
 #include "tables/beam/fields_file.h"
 #include "tables/beam/reports.h"
+
+/* The march that the options ask for. */
+struct run_plan {
+    struct br_opened_scene opened;
+    struct br_scene marched;       /* borrows from `opened` */
+    struct br_run_request request; /* without outputs */
+    size_t *level;                 /* the request's levels; owned */
+};
+
+/* ---- times ---- */
+
+/* The time level (out) at t, s. */
+static enum br_status read_level(double t, const struct br_scene *scene, size_t steps,
+                                 size_t *level, struct br_error *err)
+{
+    const double T = scene->duration, position = t / T * (double)steps;
+    if (!(t >= 0 && t <= T))
+        return br_fail(err, BR_BAD_INPUT, "--at: found %g s, expected a time of [0, %g] s", t, T);
+    const double nearest = round(position);
+    *level = (size_t)nearest;
+    if (fabs(position - nearest) <= 1e-6)
+        return BR_OK;
+    const double below = floor(position);
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "--at: found %.10g s, expected a multiple of k = %g s; the nearest are %.15g s and %.15g s",
+        t, T / (double)steps, T * below / (double)steps, T * (below + 1) / (double)steps);
+}
+
+static enum br_status read_times(const char *text, struct run_plan *plan, struct br_error *err)
+{
+    struct br_run_request *q = &plan->request;
+    struct br_error inner = {0};
+    if (br_times_check(text, &inner))
+        return br_fail(err, BR_BAD_INPUT, "--at: %s", inner.message);
+    for (const char *rest = text; rest; rest = *rest ? rest + 1 : NULL) {
+        double t;
+        const char *end = br_read_time(rest, q->scene->duration, &t);
+        if (!end)
+            return br_fail(err, BR_BAD_INPUT,
+                           "--at: found '%s', expected times separated by commas, like 0.1,0.5, or "
+                           "'every:TIME'",
+                           rest);
+        if (read_level(t, q->scene, q->steps, &plan->level[q->levels++], err))
+            return err->status;
+        rest = end;
+    }
+    br_sort_counts(plan->level, q->levels);
+    for (size_t i = 1; i < q->levels; i++)
+        if (plan->level[i] == plan->level[i - 1])
+            return br_fail(err, BR_BAD_INPUT, "--at: %g s is given twice",
+                           q->scene->duration * (double)plan->level[i] / (double)q->steps);
+    return BR_OK;
+}
+
+/* The steps (out) between two times of 'every:TIME'. */
+static enum br_status read_every(const char *text, const struct br_run_request *q, size_t *interval,
+                                 struct br_error *err)
+{
+    double t;
+    const char *end = br_read_time(text, q->scene->duration, &t);
+    if (!end || *end || !(t > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--at: found 'every:%s', expected a time above 0, like every:0.1", text);
+    if (read_level(t, q->scene, q->steps, interval, err))
+        return err->status;
+    return *interval ? BR_OK
+                     : br_fail(err, BR_BAD_INPUT,
+                               "--at: found 'every:%s', expected a multiple of k = %g s", text,
+                               q->scene->duration / (double)q->steps);
+}
+
+/* By default ten intervals of about the same length, whatever the number of steps. */
+static enum br_status make_levels(struct run_plan *plan, const struct br_options *o,
+                                  struct br_error *err)
+{
+    enum { PARTS = 10 };
+    static const char word[] = "every:";
+    struct br_run_request *q = &plan->request;
+    const char *at = br_option_text(o, BR_OPT_AT);
+    const bool every = at && strncmp(at, word, strlen(word)) == 0;
+    size_t room = at ? strlen(at) + 1 : PARTS + 1, interval = 1;
+    if (at && !br_option_given(o, BR_OPT_OUT))
+        return br_fail(err, BR_BAD_INPUT, "--at needs --out, the folder for the fields");
+    if (every && read_every(at + strlen(word), q, &interval, err))
+        return err->status;
+    if (every)
+        room = q->steps / interval + 1;
+    q->level = plan->level = br_allocate(room, sizeof *plan->level);
+    if (!plan->level)
+        return br_no_memory(err, "the output times");
+    if (at && !every)
+        return read_times(at, plan, err);
+    for (size_t i = 0; i < room && br_option_given(o, BR_OPT_OUT); i++) {
+        const size_t level =
+            every ? i * interval
+                  : (size_t)llround((double)q->steps * (double)i / PARTS); /* exact below 2^49 */
+        if (q->levels == 0 || level > plan->level[q->levels - 1])
+            plan->level[q->levels++] = level;
+    }
+    return BR_OK;
+}
+
+/* ---- the plan ---- */
+
+static enum br_status read_fields(const char *text, unsigned *wanted, struct br_error *err)
+{
+    static const struct {
+        const char *name;
+        unsigned bits;
+    } names[] = {{"axial", BR_WANT_AXIAL},
+                 {"bending", BR_WANT_BENDING},
+                 {"axial,bending", BR_WANT_AXIAL | BR_WANT_BENDING},
+                 {"bending,axial", BR_WANT_AXIAL | BR_WANT_BENDING}};
+    *wanted = 0;
+    for (size_t i = 0; text && i < sizeof names / sizeof *names; i++)
+        if (strcmp(text, names[i].name) == 0)
+            *wanted = names[i].bits;
+    if (text && !*wanted)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--fields: found '%s', expected axial, bending or axial,bending", text);
+    return BR_OK;
+}
+
+/* Checks the options against the open scene; clear the plan even after a failure. */
+static enum br_status make_plan(struct run_plan *plan, const struct br_options *o,
+                                struct br_error *err)
+{
+    const char *const *given = &o->given[BR_OPT_METHOD];
+    struct br_run_request *q = &plan->request;
+    const struct br_method *const methods[] = {&q->method};
+    *q = (struct br_run_request){
+        .scene = &plan->opened.scene,
+        .method = br_method_default(),
+        .n = (size_t)br_option_number(o, BR_OPT_N, 0),
+        .check = br_option_given(o, BR_OPT_CHECK),
+    };
+    if (br_method_read(given, BR_METHOD_OPTION, &q->method, err) ||
+        br_method_check_used(given, BR_METHOD_OPTION, methods, 1, err) ||
+        read_fields(br_option_text(o, BR_OPT_FIELDS), &q->wanted, err) ||
+        br_read_step("--k", br_option_text(o, BR_OPT_K), q->scene, &q->steps, err) ||
+        make_levels(plan, o, err) || br_model_select(q->scene, q->wanted, &plan->marched, err))
+        return err->status;
+    if (br_option_given(o, BR_OPT_OUT))
+        q->stride = br_history_stride(q->steps, (size_t)br_option_number(o, BR_OPT_ROWS, 0));
+    return q->method.axial_degree == 1 || plan->marched.axial.modelled
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--axial-degree: no axial field is marched");
+}
+
+static void clear_plan(struct run_plan *plan)
+{
+    free(plan->level);
+    br_opened_scene_clear(&plan->opened);
+}
+
+/* ---- the run ---- */
 
 /* The files of --out that are written while it marches. */
 enum { HISTORY, FIELDS_CSV, FIELDS_XDMF, FILES };
@@ -23,7 +183,7 @@ struct scene_run {
     const struct br_options *options; /* borrowed */
     struct br_session *session;       /* borrowed */
     const char *out, *json;           /* paths of these options; NULL: not given */
-    struct br_run_plan plan;
+    struct run_plan plan;
     struct br_prediction prediction;
     struct br_warnings warnings;
     struct br_run_report report;
@@ -152,38 +312,21 @@ static enum br_status open_files(struct scene_run *r, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-static enum br_status open_scene(struct scene_run *r, struct br_error *err)
-{
-    const struct br_options *o = r->options;
-    const bool failed = br_opened_scene_read(&r->plan.opened, r->session, o->word[0], err) ||
-                        br_run_plan_make(&r->plan, o, err);
-    return failed ? err->status : BR_OK;
-}
-
-static struct br_planned_march planned(const struct br_run_plan *p)
-{
-    return (struct br_planned_march){.scene = &p->marched,
-                                     .method = &p->request.method,
-                                     .n = p->request.n,
-                                     .steps = p->request.steps};
-}
-
-/* Finds the warnings and the prediction before the march. */
-static enum br_status predict(struct scene_run *r, struct br_error *err)
-{
-    struct br_planned_march march = planned(&r->plan);
-    march.prediction = &r->prediction;
-    return br_check_ahead(&march, &r->warnings, err);
-}
-
+/* Finds the warnings and the prediction, too. */
 static enum br_status prepare(struct scene_run *r, struct br_error *err)
 {
-    if (open_scene(r, err) || predict(r, err) || open_files(r, err))
+    const struct br_run_request *q = &r->plan.request;
+    if (br_opened_scene_read(&r->plan.opened, r->session, r->options->word[0], err) ||
+        make_plan(&r->plan, r->options, err))
         return err->status;
     struct br_costs work = {.alone = true};
-    const struct br_planned_march one = planned(&r->plan);
+    struct br_planned_march march =
+        br_planned(&r->plan.marched, &q->method, (struct br_resolution){q->n, q->steps});
+    march.prediction = &r->prediction;
+    if (br_check_ahead(&march, &r->warnings, err) || open_files(r, err))
+        return err->status;
     br_print_warnings("", &r->warnings);
-    br_costs_add_march(&work, &one);
+    br_costs_add_march(&work, &march);
     br_session_announce(r->session, &work);
     return BR_OK;
 }
@@ -265,7 +408,7 @@ static enum br_status run(const struct br_options *options, struct br_session *s
     close_results(&r, NULL, NULL);
     br_history_record_clear(&r.record);
     br_whole_file_discard(&r.summary);
-    br_run_plan_clear(&r.plan);
+    clear_plan(&r.plan);
     return failed ? err->status : BR_OK;
 }
 

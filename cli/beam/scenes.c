@@ -10,7 +10,7 @@
 #include "cli/output.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "tables/beam/scene_format.h"
+#include "tables/beam/reports.h"
 
 /* ---- the list ---- */
 

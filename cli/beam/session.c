@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/beam/session.h"
 
-#include <string.h>
-
 #include "base/each.h"
-#include "base/quote.h"
-#include "base/text.h"
 #include "cli/provenance.h"
 #include "study/scene/file.h"
 
@@ -38,21 +34,6 @@ struct br_provenance br_provenance_of(const struct br_opened_scene *s, int threa
     p.scene_path = s ? s->path : NULL;
     p.scene_text = s ? s->text : NULL;
     return p;
-}
-
-char *br_session_scene(const struct br_session *s, const char *name)
-{
-    char *text, *set = s->set ? strdup(s->set) : NULL, *rest = set;
-    size_t size;
-    FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
-    if (out)
-        br_quote(out, &br_for_shell, name);
-    while (out && rest) {
-        fputs(" --set ", out);
-        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
-    }
-    free(set);
-    return out && fclose(out) == 0 ? text : NULL;
 }
 
 /* A shorter forecast is not measured, and not printed, s. */

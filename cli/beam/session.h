@@ -27,10 +27,6 @@ void br_opened_scene_clear(struct br_opened_scene *scene);
 /* Its strings are static, or the scene's. scene NULL: not of one scene. */
 struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
 
-/* A scene and what --set has set in it, as words of a command line. Owned by the caller; NULL: out
- * of memory. */
-char *br_session_scene(const struct br_session *session, const char *name);
-
 /* Prints a sentence on standard error before work of some seconds: "24 marches, about 40 s, 0.3
  * GB". With --quiet nothing is printed. */
 void br_session_announce(const struct br_session *session, const struct br_costs *work);

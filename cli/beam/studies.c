@@ -177,15 +177,17 @@ enum br_status br_studies_compute(struct br_studies *r, struct br_error *err)
     struct br_study_work *const end = r->work + r->jobs;
     const struct br_observer *observer = br_progress_start("marching", r->session->quiet);
     enum br_status status = br_study_run(r->study, r->cases, threads, observer, err);
-    for (struct br_study_work *w = r->work; w < end && !status; w++)
-        status = br_grid_differences_meshes(&w->compared, w->report, norms, threads, observer, err);
+    for (struct br_study_work *w = r->work; w < end && !status; w++) {
+        w->compared = (struct br_grid_differences){
+            .report = w->report, .norms = norms, .threads = threads, .observer = observer};
+        status = br_grid_differences_meshes(&w->compared, err);
+    }
     for (struct br_study_work *w = r->work; w < end; w++)
         for (size_t m = 0; m < norms && !status; m++)
             status = br_report_finish(&w->report[m], threads, err);
     for (struct br_study_work *w = r->work; w < end && !status; w++)
         for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
-            status = br_grid_differences_settle(&w->compared, w->report, norms, axis, threads,
-                                                observer, err);
+            status = br_grid_differences_settle(&w->compared, axis, err);
     br_progress_end();
     for (struct br_study_work *w = r->work; w < end; w++)
         for (size_t m = 0; m < norms; m++)

@@ -19,9 +19,8 @@ static enum br_status write_all(struct br_studies *r, struct br_error *err)
         const struct br_provenance provenance = br_provenance_of(&w->opened, session->threads);
         struct br_document *d = &session->document[i];
         br_report_study(report, d);
-        for (const struct br_convergence_picture *const *p = br_convergence_pictures; *p; p++)
-            if ((*p)->applies(report))
-                br_session_draw(session, d, br_convergence_draw(*p, report), (*p)->title);
+        for (const struct br_convergence_picture *p = br_convergence_pictures; p->name; p++)
+            br_session_draw(session, d, br_convergence_draw(p, report), p->title);
         br_put_provenance(d, &provenance);
     }
     return br_session_finish(session, err);

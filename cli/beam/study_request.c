@@ -66,7 +66,7 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
         br_method_check_used(given, BR_METHOD_OPTION, &method, 1, err) ||
         (reference && read_reference(reference, r, err)))
         return err->status;
-    return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;
+    return methods ? br_named_methods_read(methods, &r->methods, err) : BR_OK;
 }
 
 enum br_status br_study_request_fine(const struct br_study_request *r, const struct br_scene *scene,

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The topics of the help besides the commands. */
+/* The topics of the help besides the commands; and all that the program has of the beam. */
 #include <string.h>
 
 #include "cli/beam/beam.h"
+#include "study/ranks/ranks.h"
 #include "study/scene/named_method.h"
 
 /* "--kernel   --solver auto, riccati": the rows that use field i of a method. */
@@ -64,3 +65,15 @@ void br_beam_print_topic(const char *topic)
     else
         br_write_language(stdout, topic, NULL);
 }
+
+const struct br_beam br_beam = {
+    .add_options = br_beam_add_options,
+    .standard = br_beam_standard,
+    .check_options = br_beam_check_options,
+    .start = br_ranks_start,
+    .end = br_ranks_end,
+    .first = br_ranks_first,
+    .size = br_ranks_size,
+    .topics = br_beam_topics,
+    .print_topic = br_beam_print_topic,
+};

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate trade SCENE|PROGRAM...: what a digit costs. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/quote.h"
+#include "base/text.h"
 #include "base/words.h"
 #include "cli/beam/session.h"
 #include "cli/beam/study_request.h"
@@ -175,13 +175,6 @@ static enum br_status read_goal(struct trade_run *r, struct br_error *err)
     return error ? read_error(error, &r->goal.error, err) : BR_OK;
 }
 
-static enum br_status check_norm(const struct trade_run *r, struct br_error *err)
-{
-    return r->study.norms > 1
-               ? br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms)
-               : BR_OK;
-}
-
 static enum br_status read_scenes(struct trade_run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
@@ -249,6 +242,23 @@ static enum br_status run_all(struct trade_run *r, struct br_error *err)
 
 /* ---- results ---- */
 
+/* A scene and what --set has set in it, as words of a command line. Owned by the caller; NULL: out
+ * of memory. */
+static char *words_of(const struct br_session *s, const char *name)
+{
+    char *text, *set = s->set ? strdup(s->set) : NULL, *rest = set;
+    size_t size;
+    FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
+    if (out)
+        br_quote(out, &br_for_shell, name);
+    while (out && rest) {
+        fputs(" --set ", out);
+        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
+    }
+    free(set);
+    return out && fclose(out) == 0 ? text : NULL;
+}
+
 /* A report of each scene, and where there are several one of all. */
 static enum br_status write_all(struct trade_run *r, struct br_error *err)
 {
@@ -260,17 +270,16 @@ static enum br_status write_all(struct trade_run *r, struct br_error *err)
     for (size_t i = 0; i < r->items && !status; i++) {
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session->threads);
-        char *words = br_session_scene(r->session, r->options->word[i]);
+        char *words = words_of(r->session, r->options->word[i]);
         if (!words) {
             status = br_no_memory(err, "the reports");
             break;
         }
         br_report_trade(trade[i], words, &provenance, &d[i]);
         free(words);
-        for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
-            if (br_trade_picture_applies(*p, trade[i]))
-                br_session_draw(r->session, &d[i],
-                                br_trade_draw(*p, trade[i], d[i].name, d[i].caption), (*p)->title);
+        for (const struct br_trade_picture *p = br_trade_pictures; p->name; p++)
+            br_session_draw(r->session, &d[i], br_trade_draw(p, trade[i], d[i].name, d[i].caption),
+                            p->title);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session->threads);
@@ -347,7 +356,7 @@ static enum br_status lay_out_split(struct trade_run *r, struct br_error *err)
     size_t steps;
     if (check_split(o, err) || br_study_request_read(o, &r->study, err) ||
         (r->study.methods.count == 0 && /* default: the first scheme */
-         br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
+         br_named_methods_read(br_time_schemes[0]->name, &r->study.methods, err)) ||
         check_used(r, true, err) || read_scenes(r, err) ||
         br_steps_read(r->study.k, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
@@ -494,8 +503,11 @@ static bool trade(struct trade_run *r, struct br_error *err)
         return true;
     if (programs == r->options->words)
         return br_trade_sources(r->options, r->session, NULL, 0, err);
-    if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err) ||
-        check_norm(r, err) || check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
+    if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err))
+        return true;
+    if (r->study.norms > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
+    if (check_used(r, false, err) || read_goal(r, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))

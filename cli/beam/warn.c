@@ -38,11 +38,10 @@ struct scene_check {
 };
 
 static enum br_status check_march(struct scene_check *check, const struct br_method *method,
-                                  size_t n, size_t steps, struct br_error *err)
+                                  struct br_resolution at, struct br_error *err)
 {
-    const struct br_planned_march o = {
-        .scene = check->scene, .method = method, .n = n, .steps = steps};
-    if ((double)n * (double)steps > (double)check->finest.n * (double)check->finest.steps)
+    const struct br_planned_march o = br_planned(check->scene, method, at);
+    if ((double)at.n * (double)at.steps > (double)check->finest.n * (double)check->finest.steps)
         check->finest = o;
     return br_check_ahead_cheaply(&o, &check->warnings, err);
 }
@@ -62,9 +61,8 @@ enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
     enum br_status status = BR_OK;
     for (const struct br_study *s = studies; s < studies + count && !status; s++) {
         struct scene_check check = {.scene = s->scene};
-        for (size_t i = 0; i < s->n_count; i++)
-            for (size_t j = 0; j < s->k_count && !status; j++)
-                status = check_march(&check, &s->method, s->n[i], s->steps[j], err);
+        for (size_t c = 0; c < br_study_cells(s) && !status; c++)
+            status = check_march(&check, &s->method, br_study_resolution(s, c), err);
         status = end(&check, status, err);
     }
     return status;
@@ -75,7 +73,7 @@ enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, st
     struct scene_check check = {.scene = splits->scene};
     enum br_status status = BR_OK;
     for (const struct br_split *s = splits; s < splits + count && !status; s++)
-        status = check_march(&check, &s->method, s->at.n, s->at.steps, err);
+        status = check_march(&check, &s->method, s->at, err);
     return end(&check, status, err);
 }
 
@@ -91,7 +89,7 @@ enum br_status br_warn_of_paper(struct br_error *err)
         struct scene_check check = {.scene = &scene};
         const size_t steps = status ? 0 : request.per_second * (size_t)lround(scene.duration);
         if (!status)
-            status = check_march(&check, &method, request.n, steps, err);
+            status = check_march(&check, &method, (struct br_resolution){request.n, steps}, err);
         br_print_warnings(status ? "" : scene.name, &check.warnings);
         br_scene_clear(&scene);
     }
@@ -107,7 +105,8 @@ void br_warn_of_checks(const struct br_scene_check *checks, size_t count)
             const struct br_verify_study *v = &c->verify->study[kind];
             check.finest = (struct br_planned_march){0};
             for (size_t i = 0; i < v->count; i++)
-                check_march(&check, &v->method, v->n[i], v->steps[i], &refusal);
+                check_march(&check, &v->method, (struct br_resolution){v->n[i], v->steps[i]},
+                            &refusal);
             if (check.finest.n)
                 br_check_loads(&check.finest, &check.warnings, &refusal);
         }
@@ -120,6 +119,6 @@ void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *tria
     struct scene_check check = {.scene = scene};
     struct br_error refusal = {0};
     for (const struct br_trial *t = trials; t < trials + count; t++)
-        check_march(&check, &t->named->method, t->at.n, t->at.steps, &refusal);
+        check_march(&check, &t->named->method, t->at, &refusal);
     end(&check, BR_OK, &refusal);
 }

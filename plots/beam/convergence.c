@@ -8,21 +8,6 @@
 #include "solver/scene.h"
 #include "study/fit/report.h"
 
-/* Entry i of the study's list for an axis: n over h, steps over k. */
-static size_t entry_of(const struct br_report *r, int axis, size_t i)
-{
-    const struct br_study *study = r->fitted;
-    return axis == BR_AXIS_SPACE ? study->n[i] : study->steps[i];
-}
-
-/* h or k, m or s. */
-static double size_of(const struct br_report *r, int axis, size_t i)
-{
-    const struct br_study *s = r->fitted;
-    return axis == BR_AXIS_SPACE ? br_mesh_size(s->scene, s->n[i])
-                                 : br_time_step(s->scene, s->steps[i]);
-}
-
 /* The number that is drawn for a cell; NaN: a gap. */
 typedef double of_cell(const struct br_report *r, size_t cell);
 
@@ -52,11 +37,11 @@ static void add_points(const struct br_report *r, int axis, size_t at, of_cell *
                        struct br_series *series)
 {
     const struct br_study *study = r->fitted;
-    for (size_t i = 0; i < br_axis_count(r->fitted, axis); i++) {
+    for (size_t i = 0; i < br_axis_count(study, axis); i++) {
         const size_t cell = br_axis_cell(study, axis, i, at);
         const enum br_flag flag = study->cell[cell].flag[BR_PART_TOTAL];
         const bool flagged = flag != BR_FLAG_NONE && value != printed_of;
-        br_point_add(series, size_of(r, axis, i), value(r, cell),
+        br_point_add(series, br_axis_size(study->scene, axis, study->cell[cell].at), value(r, cell),
                      flagged ? br_flag_name(flag) : NULL);
     }
 }
@@ -76,9 +61,9 @@ static size_t hue_of(size_t i, size_t count)
 static const char *name_curve(const struct br_report *r, int axis, size_t at, char name[40])
 {
     if (axis == BR_AXIS_SPACE)
-        snprintf(name, 40, "k = %.3g s", size_of(r, BR_AXIS_TIME, at));
+        snprintf(name, 40, "k = %.3g s", br_time_step(r->fitted->scene, r->fitted->steps[at]));
     else
-        snprintf(name, 40, "n = %zu", entry_of(r, BR_AXIS_SPACE, at));
+        snprintf(name, 40, "n = %zu", r->fitted->n[at]);
     return name;
 }
 
@@ -95,20 +80,18 @@ static void add_curves(const struct br_report *r, int axis, of_cell *value, stru
 
 static struct br_panel *add_panel(const struct br_report *r, int axis, struct br_figure *f)
 {
-    const struct br_norm *norm = r->fitted->norm;
+    const struct br_study *s = r->fitted;
+    const struct br_norm *norm = s->norm;
     const bool space = axis == BR_AXIS_SPACE;
     struct br_panel *p = br_panel_add(f, space ? "mesh size h (m)" : "time step k (s)", "");
     p->log_x = p->log_y = true;
     BR_SAY(p->y_label, "%s (%s)", norm->symbol, norm->unit_markup);
     BR_SAY(p->top_label, space ? "elements n" : "steps N");
-    for (size_t i = 0; i < br_axis_count(r->fitted, axis); i++)
-        br_point_add(&p->top, size_of(r, axis, i), (double)entry_of(r, axis, i), NULL);
+    for (size_t i = 0; i < br_axis_count(s, axis); i++)
+        br_point_add(&p->top,
+                     space ? br_mesh_size(s->scene, s->n[i]) : br_time_step(s->scene, s->steps[i]),
+                     (double)(space ? s->n : s->steps)[i], NULL);
     return p;
-}
-
-static bool always(const struct br_report *r)
-{
-    return r->fitted->n_count > 0 && r->fitted->k_count > 0;
 }
 
 /* "total: order in h 2.00 [1.99, 2.01], in k not measurable", and by what where it is not the
@@ -155,12 +138,6 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
 }
 
 /* ---- the orders ---- */
-
-static bool has_orders(const struct br_report *r)
-{
-    return r->observed[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
-           r->observed[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
-}
 
 /* The errors, the fitted line, and its band. Returns the errors. */
 static const struct br_series *add_order(const struct br_observed_order *o, const char *name,
@@ -224,11 +201,6 @@ static void fill_orders(const struct br_report *r, struct br_figure *f)
             add_orders(r, axis, f);
 }
 
-static bool has_printed(const struct br_report *r)
-{
-    return always(r) && r->printed;
-}
-
 /* The hue shows whose error it is, the mark which curve it is. */
 static void add_both(const struct br_report *r, int axis, struct br_figure *f)
 {
@@ -257,6 +229,8 @@ static const char *say_mark(const struct br_report *r, int axis, size_t hue, cha
 /* Adds a key of the marks: over k they are meshes, over h time steps. */
 static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
+    if (!r->printed)
+        return;
     f->one_y = true;
     add_both(r, BR_AXIS_TIME, f);
     add_both(r, BR_AXIS_SPACE, f);
@@ -271,21 +245,17 @@ static void fill_printed(const struct br_report *r, struct br_figure *f)
     }
 }
 
-static const struct br_convergence_picture
-    over_h = {"h", "The error against the mesh size h, one curve per time step k.",
-              "Errors over the mesh size h", always, fill_h},
-    over_k = {"k", "The error against the time step k, one curve per number of elements n.",
-              "Errors over the time step k", always, fill_k},
-    orders = {"orders",
-              "The errors or differences that show the orders in h and k, the fitted line and its "
-              "95 % band.",
-              "Orders in h and k", has_orders, fill_orders},
-    printed = {"printed",
-               "The computed and the printed errors against the time step k and the mesh size h.",
-               "Errors, computed and printed", has_printed, fill_printed};
-
-const struct br_convergence_picture *const br_convergence_pictures[] = {&orders, &over_h, &over_k,
-                                                                        &printed, NULL};
+const struct br_convergence_picture br_convergence_pictures[] = {
+    {"orders",
+     "The errors or differences that show the orders in h and k, the fitted line and its 95 % band.",
+     "Orders in h and k", fill_orders},
+    {"h", "The error against the mesh size h, one curve per time step k.",
+     "Errors over the mesh size h", fill_h},
+    {"k", "The error against the time step k, one curve per number of elements n.",
+     "Errors over the time step k", fill_k},
+    {"printed", "The computed and the printed errors against the time step k and the mesh size h.",
+     "Errors, computed and printed", fill_printed},
+    {0}};
 
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *r)

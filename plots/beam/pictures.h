@@ -8,8 +8,6 @@
 #include "plots/pictures.h"
 
 struct br_named_method;
-struct br_named_methods;
-struct br_norm;
 struct br_example;
 struct br_floors;
 struct br_history_record;
@@ -28,12 +26,11 @@ struct br_convergence_picture {
     const char *name;
     const char *title; /* one line for a person */
     const char *short_title;
-    bool (*applies)(const struct br_report *report);
     void (*fill)(const struct br_report *report, struct br_figure *figure);
 };
-extern const struct br_convergence_picture *const br_convergence_pictures[]; /* NULL-terminated */
+extern const struct br_convergence_picture br_convergence_pictures[]; /* ends with zeros */
 
-/* Call picture->applies first. */
+/* No panels if there is nothing to show. */
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *report);
 
@@ -44,16 +41,14 @@ struct br_trade_picture {
     const char *name;  /* of the files: <scene>-<name>.gp and so on */
     const char *title; /* one line for a person */
     const char *short_title;
-    /* Whether a method has a curve. */
-    bool (*shows)(const struct br_trade *trade, const struct br_named_method *named);
+    bool
+        of_rules; /* of the methods that differ in rules and solvers; else in scheme and elements */
     const char *label;                            /* of the axis of work, with its unit */
     double (*work)(const struct br_trial *trial); /* along that axis; NaN: not drawn */
 };
-extern const struct br_trade_picture *const br_trade_pictures[]; /* NULL-terminated */
+extern const struct br_trade_picture br_trade_pictures[]; /* ends with zeros */
 
-/* Whether the picture has anything to show. */
-bool br_trade_picture_applies(const struct br_trade_picture *picture, const struct br_trade *trade);
-
+/* No panels if no method is shown. */
 struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
                                const char *name, const char *caption);
 

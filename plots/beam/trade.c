@@ -13,23 +13,19 @@ static bool is_plain(const struct br_named_method *c)
     return c->method.friction == br_friction_rules[0] && c->method.solver == br_linear_solvers[0];
 }
 
-static bool shows_schemes(const struct br_trade *t, const struct br_named_method *c)
+/* Whether a method has a curve. Beside other rules and solvers are the plain methods of the same
+ * scheme, to compare with. */
+static bool shows(const struct br_trade_picture *p, const struct br_trade *t,
+                  const struct br_named_method *c)
 {
-    (void)t;
-    return is_plain(c);
-}
-
-/* The other methods, and the plain methods of the same scheme, to compare with. */
-static bool shows_rules(const struct br_trade *t, const struct br_named_method *c)
-{
-    bool compared = !is_plain(c);
-    for (size_t i = 0; i < t->methods.count; i++) {
+    bool shown = is_plain(c) != p->of_rules;
+    for (size_t i = 0; i < t->methods.count && p->of_rules; i++) {
         const struct br_named_method *other = &t->methods.list[i];
-        compared |= !is_plain(other) && other->method.scheme == c->method.scheme &&
-                    other->method.contact == c->method.contact &&
-                    other->method.axial_degree == c->method.axial_degree;
+        shown |= !is_plain(other) && other->method.scheme == c->method.scheme &&
+                 other->method.contact == c->method.contact &&
+                 other->method.axial_degree == c->method.axial_degree;
     }
-    return compared;
+    return shown;
 }
 
 static double element_solves(const struct br_trial *trial)
@@ -39,37 +35,14 @@ static double element_solves(const struct br_trial *trial)
                : (double)NAN;
 }
 
-static const struct br_trade_picture schemes = {
-    "schemes",
-    "Relative error against CPU seconds, by time scheme",
-    "Time schemes",
-    shows_schemes,
-    "CPU time of one thread (s)",
-    br_trial_seconds};
-static const struct br_trade_picture work = {
-    "work",
-    "Relative error against element-solves, by time scheme",
-    "Time schemes, element-solves",
-    shows_schemes,
-    "elements times linear solves a field",
-    element_solves};
-static const struct br_trade_picture rules = {
-    "rules",
-    "Relative error against CPU seconds, by friction rule and linear solver",
-    "Friction rules and solvers",
-    shows_rules,
-    "CPU time of one thread (s)",
-    br_trial_seconds};
-
-const struct br_trade_picture *const br_trade_pictures[] = {&schemes, &work, &rules, NULL};
-
-bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_trade *t)
-{
-    bool applies = false;
-    for (size_t i = 0; i < t->methods.count; i++)
-        applies |= p->shows(t, &t->methods.list[i]);
-    return applies;
-}
+const struct br_trade_picture br_trade_pictures[] = {
+    {"schemes", "Relative error against CPU seconds, by time scheme", "Time schemes", false,
+     "CPU time of one thread (s)", br_trial_seconds},
+    {"work", "Relative error against element-solves, by time scheme",
+     "Time schemes, element-solves", false, "elements times linear solves a field", element_solves},
+    {"rules", "Relative error against CPU seconds, by friction rule and linear solver",
+     "Friction rules and solvers", true, "CPU time of one thread (s)", br_trial_seconds},
+    {0}};
 
 /* Errors above 10 are left out: they would only widen the axis. */
 static bool has_position(const struct br_trade_picture *p, const struct br_trial *t)
@@ -90,7 +63,7 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
 {
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
-        if ((only ? trial->named == only : p->shows(t, trial->named)) &&
+        if ((only ? trial->named == only : shows(p, t, trial->named)) &&
             isfinite(br_trial_bound(trial)) && has_position(p, trial))
             add_trial(p, trial, s);
     }
@@ -138,12 +111,16 @@ static void add_goal(const struct br_trade_picture *p, const struct br_trade *t,
 struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
                                const char *name, const char *caption)
 {
-    size_t failed = 0, over = 0;
+    size_t failed = 0, over = 0, shown = 0;
+    for (size_t i = 0; i < trade->methods.count; i++)
+        shown += shows(picture, trade, &trade->methods.list[i]);
     for (size_t i = 0; i < trade->count; i++) {
         failed += trade->trial[i].end == BR_TRIAL_FAILED;
         over += trade->trial[i].end == BR_TRIAL_OVER;
     }
     struct br_figure figure = {0}, *f = &figure;
+    if (!shown)
+        return figure;
     BR_SAY(f->stem, "%.400s-%s", name, picture->name);
     BR_SAY(f->title, "%s. %s", caption, picture->short_title);
     BR_SAY(f->about, "%s", picture->title);
@@ -159,7 +136,7 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
         for (const struct br_trial *t = trade->trial; t < trade->trial + trade->count; t++) {
             const bool in[] = {t->end != BR_TRIAL_UNSTABLE, t->end == BR_TRIAL_UNSTABLE, t->printed,
                                t->end == BR_TRIAL_DOUBTFUL}; /* by clouds */
-            if (!picture->shows(trade, t->named) || !in[i] || !has_position(picture, t))
+            if (!shows(picture, trade, t->named) || !in[i] || !has_position(picture, t))
                 continue;
             if (!s)
                 s = br_series_add(f, clouds[i].pen, "%s", clouds[i].title);
@@ -169,7 +146,7 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
     /* The fronts of all methods that are shown, by merit. */
     size_t left[BR_MOST_NAMED_METHODS] = {0}; /* merits; 0: done, or not shown */
     for (size_t i = 0; i < trade->methods.count; i++)
-        if (picture->shows(trade, &trade->methods.list[i]))
+        if (shows(picture, trade, &trade->methods.list[i]))
             left[i] = merit(picture, trade, &trade->methods.list[i], front);
     for (;;) {
         size_t best = 0;

@@ -84,11 +84,13 @@ static enum br_status exact_create(void **self, const struct br_reference_reques
     struct br_exact_options options = {.acceptable = 1e-5};
     if (r->modest)
         options.max_modes = 64;
-    options.stop = r->stop;
-    options.stop_self = r->stop_self;
-    options.progress = r->preparing;
-    if (r->preparing)
-        r->preparing(r->stop_self, 0); /* the loads are examined first */
+    if (r->observer) {
+        options.stop = r->observer->stop;
+        options.stop_self = r->observer->self;
+        options.progress = r->observer->preparing;
+    }
+    if (options.progress)
+        options.progress(options.stop_self, 0); /* the loads are examined first */
     enum br_status status = br_exact_borrow(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);

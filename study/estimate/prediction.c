@@ -133,11 +133,6 @@ struct br_method br_accurate_method(const struct br_method *own, const char *sch
     return m;
 }
 
-static struct br_method best_method(const struct br_planned_march *o)
-{
-    return br_accurate_method(o->method, at_once(o) ? "euler" : "esdirk4");
-}
-
 /* The place of a cell in the study, where an equal one is used again; -1: it is R. */
 static int place(struct comparison *c, const struct setting *s, const struct br_method *method,
                  size_t n, size_t steps)
@@ -197,7 +192,7 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->study.reference_method = *s->reference;
     c->study.reference = (struct br_resolution){fine, many};
     c->study.path = true;
-    c->study.engine = (struct br_engine){br_march_studies}; /* only the first rank predicts */
+    c->study.here = true; /* only the first rank predicts */
     c->study.n = c->n;
     c->study.steps = c->steps;
     c->study.cell_method = c->method;
@@ -264,7 +259,7 @@ static enum br_status march_one_by_one(struct marches *m, size_t n, struct br_er
 {
     enum { SHORTER = 16 };
     const struct br_planned_march *o = m->run;
-    const struct br_method best = best_method(o);
+    const struct br_method best = br_accurate_method(o->method, at_once(o) ? "euler" : "esdirk4");
     struct br_method own = *o->method;
     const double most = budget(o) / solve(o, n), r = 1.5 * stages(&best), steps = (double)o->steps;
     struct setting time = {n, o->steps, 1, 4, &own, &best, &best};

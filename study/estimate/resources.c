@@ -6,8 +6,6 @@
 #include <string.h>
 #include <sys/resource.h>
 
-static const double day = 86400, most_days = 36525; /* a century */
-
 /* The number after a word in a file, times its unit in bytes; INFINITY: not found. */
 static double read_bytes(const char *path, const char *word, double unit)
 {
@@ -116,26 +114,4 @@ enum br_status br_fit_together(const struct br_study *studies, size_t count, dou
                    "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
                    "of them, or fewer elements",
                    w.marches, w.bytes / 1e9, available / 1e9);
-}
-
-static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,
-                                 struct br_error *err)
-{
-    const double days = br_march_seconds(o) / day;
-    if (days > most_days)
-        return br_fail(err, BR_BAD_INPUT,
-                       "n = %zu and %zu steps take about %.2g years, expected at most a hundred: "
-                       "longer steps or fewer elements",
-                       o->n, o->steps, days / 365.25);
-    if (days > 1)
-        br_warn(w, BR_WARN_LONG, "longer steps or fewer elements, or a scheme of higher order",
-                "n = %zu and %zu steps take about %.2g days", o->n, o->steps, days);
-    return BR_OK;
-}
-
-enum br_status br_check_resources(const struct br_planned_march *o, struct br_warnings *w,
-                                  struct br_error *err)
-{
-    const enum br_status status = br_fits_memory(o, br_memory_available(), err);
-    return status ? status : check_time(o, w, err);
 }

@@ -312,12 +312,27 @@ static enum br_status check_prediction(const struct br_planned_march *o, struct 
 
 /* ---- all sources ---- */
 
+static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,
+                                 struct br_error *err)
+{
+    static const double day = 86400, most_days = 36525; /* a century */
+    const double days = br_march_seconds(o) / day;
+    if (days > most_days)
+        return br_fail(err, BR_BAD_INPUT,
+                       "n = %zu and %zu steps take about %.2g years, expected at most a hundred: "
+                       "longer steps or fewer elements",
+                       o->n, o->steps, days / 365.25);
+    if (days > 1)
+        br_warn(w, BR_WARN_LONG, "longer steps or fewer elements, or a scheme of higher order",
+                "n = %zu and %zu steps take about %.2g days", o->n, o->steps, days);
+    return BR_OK;
+}
+
 enum br_status br_check_ahead_cheaply(const struct br_planned_march *o, struct br_warnings *w,
                                       struct br_error *err)
 {
-    const enum br_status status = br_check_resources(o, w, err);
-    if (status)
-        return status;
+    if (br_fits_memory(o, br_memory_available(), err) || check_time(o, w, err))
+        return err->status;
     br_check_contact(o, w);
     return check_bounces(o, w, err);
 }

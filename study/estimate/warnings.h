@@ -60,10 +60,6 @@ enum br_status br_check_loads(const struct br_planned_march *planned, struct br_
 
 /* ---- single checks ---- */
 
-/* Checks memory and time. */
-enum br_status br_check_resources(const struct br_planned_march *planned,
-                                  struct br_warnings *warnings, struct br_error *err);
-
 /* Warns of a lagged contact beyond its stability limit (solver/laws.h); the remedies are within the
  * limit. */
 void br_check_contact(const struct br_planned_march *planned, struct br_warnings *warnings);

@@ -13,7 +13,7 @@
 /* The request to an experiment. All borrowed; 0 or NULL: its default. */
 struct br_extremes_job {
     int threads;                         /* 0: all cores */
-    const struct br_scene *const *scene; /* `scenes` of them, at least one */
+    const struct br_scene *const *scene; /* `scenes` of them, 1 to BR_FLOOR_SCENES */
     size_t scenes;
     const size_t *n, *steps; /* elements; numbers of steps of the duration */
     size_t n_count, step_count;
@@ -75,17 +75,23 @@ struct br_floors {
  * of the duration; for gathered round-off there are from one
  * step to 1e5 steps, to 1e6 where a step is one solve, and to 1e7 in the first scene by implicit
  * Euler with implicit contact. Clear *floors (out) also after a failure. Fails with BR_UNSUPPORTED
- * where long double has no more digits than double, BR_NO_MEMORY, BR_INTERRUPTED, BR_BAD_INPUT (too
- * many scenes), and as the reference march does. */
+ * where long double has no more digits than double, BR_NO_MEMORY, BR_INTERRUPTED, and as the
+ * reference march does. */
 enum br_status br_floors_run(struct br_floors *floors, bool gathered,
                              const struct br_extremes_job *job, struct br_error *err);
 void br_floors_clear(struct br_floors *floors);
 
-const struct br_floor *br_floor_at(const struct br_floors *floors, size_t scene, size_t method,
-                                   size_t n, size_t k);
+static inline const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene,
+                                                 size_t method, size_t n, size_t k)
+{
+    return &f->floor[((scene * f->method.count + method) * f->n_count + n) * f->k_count + k];
+}
 
 /* The larger deviation of both fields; NaN where there is none. */
-double br_floor_deviation(const struct br_floor *floor);
+static inline double br_floor_deviation(const struct br_floor *floor)
+{
+    return br_worst(floor->deviation[BR_AXIAL], floor->deviation[BR_BENDING]);
+}
 
 /* The limit for a march's deviation: its prediction; for the first BR_FLOOR_STEPS steps of riccati
  * also 2e-11 up to n = 12800 and 1e-9 up to n = 1,000,000. */

@@ -108,9 +108,6 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
 {
     const size_t *n = f->gathered ? gathered_n : job->n ? job->n : usual_n;
     const size_t *steps = job->steps ? job->steps : f->gathered ? gathered_steps : usual_steps;
-    if (job->scenes > BR_FLOOR_SCENES)
-        return br_fail(err, BR_BAD_INPUT, "found %zu scenes, expected at most %d", job->scenes,
-                       BR_FLOOR_SCENES);
     f->scenes = job->scenes;
     for (size_t i = 0; i < f->scenes; i++)
         f->scene[i] = job->scene[i];
@@ -320,17 +317,6 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
 }
 
 /* ---- reading the results ---- */
-
-const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size_t method, size_t n,
-                                   size_t k)
-{
-    return &f->floor[((scene * f->method.count + method) * f->n_count + n) * f->k_count + k];
-}
-
-double br_floor_deviation(const struct br_floor *floor)
-{
-    return br_worst(floor->deviation[BR_AXIAL], floor->deviation[BR_BENDING]);
-}
 
 double br_floor_limit(const struct br_floor *f)
 {

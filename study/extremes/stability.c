@@ -262,17 +262,14 @@ static enum br_status prepare(struct br_stability *s, const struct br_extremes_j
     s->scene = job->scene[0];
     const struct br_contact *contact = &s->scene->contact;
     s->own = contact->modelled ? br_contact_stiffness(contact) : NAN;
-    enum br_status status = take_steps(s, job, err);
-    if (!status)
-        status = take_methods(s, job, err);
-    for (size_t i = 0; i < s->method.count && !status; i++) {
-        status = br_method_check(&s->method.list[i].method, s->scene, err);
-        if (!status)
-            status = add_plane(s, &s->method.list[i], false, n, n_count, err);
-        if (!status && s->own > 0)
-            status = add_plane(s, &s->method.list[i], true, n, n_count, err);
-    }
-    return status;
+    if (take_steps(s, job, err) || take_methods(s, job, err))
+        return err->status;
+    for (const struct br_named_method *m = s->method.list; m < s->method.list + s->method.count;
+         m++)
+        if (br_method_check(&m->method, s->scene, err) || add_plane(s, m, false, n, n_count, err) ||
+            (s->own > 0 && add_plane(s, m, true, n, n_count, err)))
+            return err->status;
+    return BR_OK;
 }
 
 enum br_status br_stability_run(struct br_stability *s, const struct br_extremes_job *job,

@@ -103,33 +103,31 @@ static enum br_status add(struct br_study *to, struct br_study *more, enum br_ax
 
 /* Compares the sizes [from, to) of an axis in all norms. *why (out): what has failed, which ends
  * the call only where memory or the user does. */
-static enum br_status compare(struct br_grid_differences *a, const struct br_report *report,
-                              size_t norms, enum br_axis axis, size_t from, size_t to, int threads,
-                              const struct br_observer *observer, struct br_error *why,
-                              struct br_error *err)
+static enum br_status compare(struct br_grid_differences *a, enum br_axis axis, size_t from,
+                              size_t to, struct br_error *why, struct br_error *err)
 {
     const bool over_h = axis == BR_AXIS_SPACE, front = from < a->first[axis];
     const size_t *size = a->size[axis];
-    const struct br_study *s = report->study;
+    const struct br_study *s = a->report->study;
     struct br_study grid[BR_MOST_NORMS] = {0};
     struct br_study found[BR_MOST_NORMS] = {0};
-    for (size_t m = 0; m < norms; m++)
+    for (size_t m = 0; m < a->norms; m++)
         grid[m] = (struct br_study){.scene = s->scene,
                                     .method = s->method,
                                     .reference_kind = &br_reference_none,
-                                    .norm = report[m].study->norm,
+                                    .norm = a->report[m].study->norm,
                                     .n = over_h ? size + from : &a->at[axis],
                                     .n_count = over_h ? to - from : 1,
                                     .steps = over_h ? &a->at[axis] : size + from,
                                     .k_count = over_h ? 1 : to - from,
-                                    .next_norm = m + 1 < norms ? &grid[m + 1] : NULL};
-    enum br_status status = br_differences_run(grid, axis, found, threads, observer, why);
+                                    .next_norm = m + 1 < a->norms ? &grid[m + 1] : NULL};
+    enum br_status status = br_differences_run(grid, axis, found, a->threads, a->observer, why);
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", why->message);
     a->first[axis] = front ? from : a->first[axis];
     a->end[axis] = front ? a->end[axis] : to;
     status = BR_OK;
-    for (size_t m = 0; m < norms && !why->status; m++) {
+    for (size_t m = 0; m < a->norms && !why->status; m++) {
         if (!status)
             status = add(&a->over[axis][m], &found[m], axis, front, size + a->first[axis], err);
         br_study_clear(&found[m]);
@@ -137,55 +135,51 @@ static enum br_status compare(struct br_grid_differences *a, const struct br_rep
     return status;
 }
 
-enum br_status br_grid_differences_meshes(struct br_grid_differences *a, struct br_report *report,
-                                          size_t norms, int threads,
-                                          const struct br_observer *observer, struct br_error *err)
+enum br_status br_grid_differences_meshes(struct br_grid_differences *a, struct br_error *err)
 {
-    choose_meshes(a, report->study);
-    choose_steps(a, report->study);
-    if (compare(a, report, norms, BR_AXIS_SPACE, 0, a->end[BR_AXIS_SPACE], threads, observer,
-                &a->no_meshes, err))
+    choose_meshes(a, a->report->study);
+    choose_steps(a, a->report->study);
+    if (compare(a, BR_AXIS_SPACE, 0, a->end[BR_AXIS_SPACE], &a->no_meshes, err))
         return err->status;
-    for (size_t m = 0; m < norms; m++)
+    for (size_t m = 0; m < a->norms; m++)
         if (a->no_meshes.status)
-            report[m].no_meshes = a->no_meshes.message;
+            a->report[m].no_meshes = a->no_meshes.message;
         else
-            report[m].compared[BR_AXIS_SPACE] = &a->over[BR_AXIS_SPACE][m];
+            a->report[m].compared[BR_AXIS_SPACE] = &a->over[BR_AXIS_SPACE][m];
     return BR_OK;
 }
 
 /* Sets the orders along an axis; settled: out. larger: the sizes that have come last; they may
  * settle an order, and then it is taken, but they take none away. */
-static enum br_status see(const struct br_grid_differences *a, struct br_report *report,
-                          size_t norms, enum br_axis axis, bool larger, bool *settled,
-                          struct br_error *err)
+static enum br_status see(const struct br_grid_differences *a, enum br_axis axis, bool larger,
+                          bool *settled, struct br_error *err)
 {
     *settled = true;
-    for (size_t m = 0; m < norms; m++) {
+    for (size_t m = 0; m < a->norms; m++) {
         const struct br_study *over = &a->over[axis][m];
+        struct br_report *report = &a->report[m];
         struct br_observed_order before[BR_PARTS];
         for (int part = 0; part < BR_PARTS; part++)
-            before[part] = report[m].observed[part][axis];
-        report[m].compared[axis] = over->cell ? over : NULL;
-        if (over->cell && br_report_observe_orders(&report[m], axis, err))
+            before[part] = report->observed[part][axis];
+        report->compared[axis] = over->cell ? over : NULL;
+        if (over->cell && br_report_observe_orders(report, axis, err))
             return err->status;
         for (int part = 0; part < BR_PARTS && larger; part++) {
-            struct br_observed_order *o = &report[m].observed[part][axis];
+            struct br_observed_order *o = &report->observed[part][axis];
             const struct br_estimate *old = &before[part].order, *new = &o->order;
             if (br_order_determined(old) && !br_observed_settles(o) &&
                 !(new->high - new->low < old->high - old->low))
                 *o = before[part];
         }
-        *settled = *settled && br_report_settles(&report[m], axis);
+        *settled = *settled && br_report_settles(report, axis);
     }
     return BR_OK;
 }
 
-enum br_status br_grid_differences_settle(struct br_grid_differences *a, struct br_report *report,
-                                          size_t norms, enum br_axis axis, int threads,
-                                          const struct br_observer *observer, struct br_error *err)
+enum br_status br_grid_differences_settle(struct br_grid_differences *a, enum br_axis axis,
+                                          struct br_error *err)
 {
-    const struct br_study *s = report->study;
+    const struct br_study *s = a->report->study;
     struct br_error why = axis == BR_AXIS_SPACE ? a->no_meshes : (struct br_error){0};
     const size_t most = a->first[axis] + FINER;
     bool settled = false;
@@ -193,7 +187,7 @@ enum br_status br_grid_differences_settle(struct br_grid_differences *a, struct 
     for (size_t c = 0; c < br_study_cells(s); c++)
         left += work_of(s->cell[c].at.n, s->cell[c].at.steps);
     left = fmax(left, no_matter);
-    enum br_status status = see(a, report, norms, axis, false, &settled, err);
+    enum br_status status = see(a, axis, false, &settled, err);
     while (!status && !settled && !why.status) {
         const size_t end = a->end[axis], first = a->first[axis];
         size_t from = end ? end - 1 : first, to = end ? end + 1 : first + PAIRS + 2;
@@ -204,9 +198,9 @@ enum br_status br_grid_differences_settle(struct br_grid_differences *a, struct 
                 break;
             from = first - 1, to = first + 1;
         }
-        status = compare(a, report, norms, axis, from, to, threads, observer, &why, err);
+        status = compare(a, axis, from, to, &why, err);
         if (!status)
-            status = see(a, report, norms, axis, from < first, &settled, err);
+            status = see(a, axis, from < first, &settled, err);
     }
     return status;
 }

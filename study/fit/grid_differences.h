@@ -6,13 +6,19 @@
 
 #include "base/observer.h"
 #include "study/fit/report.h"
-#include "study/grid/differences.h"
+#include "study/grid/sweep.h"
 
 /* At most; each half of the one before, unless the grid has others. */
 enum { BR_DIFFERENCE_SIZES = 12 };
 
-/* The differences of a study, by its chain of norms. Begins as zeros. The reports borrow them. */
+/* The differences of a study, by its chain of norms. Begins as zeros, but for the first members.
+ * The reports borrow them. */
 struct br_grid_differences {
+    struct br_report *report; /* of one study in `norms` norms, in the order of its chain, whose
+                                 cells have been marched; borrowed, as the observer */
+    size_t norms;
+    int threads;
+    const struct br_observer *observer;
     size_t size[BR_AXES]
                [BR_DIFFERENCE_SIZES];    /* meshes, and numbers of steps, that are compared: */
     size_t first[BR_AXES], end[BR_AXES]; /* ... those that have been marched; end 0: none */
@@ -22,21 +28,17 @@ struct br_grid_differences {
 };
 void br_grid_differences_clear(struct br_grid_differences *compared);
 
-/* Both take the reports of one study in `norms` norms, in the order of its chain, whose cells have
- * been marched. A march that fails is no failure: it ends what there is to see. They fail with
- * BR_NO_MEMORY or BR_INTERRUPTED. */
+/* A march that fails is no failure: it ends what there is to see. Both fail with BR_NO_MEMORY or
+ * BR_INTERRUPTED. */
 
 /* Compares each mesh with the next at one time step, for br_report_finish. */
 enum br_status br_grid_differences_meshes(struct br_grid_differences *compared,
-                                          struct br_report *report, size_t norms, int threads,
-                                          const struct br_observer *observer, struct br_error *err);
+                                          struct br_error *err);
 
 /* Where the finished reports do not settle the order along an axis: compares ever smaller sizes, of
  * time on a cheap mesh, until they settle it, or cost more than the grid; then larger time steps of
  * the grid's range, which cost little. */
-enum br_status br_grid_differences_settle(struct br_grid_differences *compared,
-                                          struct br_report *report, size_t norms, enum br_axis axis,
-                                          int threads, const struct br_observer *observer,
+enum br_status br_grid_differences_settle(struct br_grid_differences *compared, enum br_axis axis,
                                           struct br_error *err);
 
 #endif

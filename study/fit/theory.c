@@ -27,7 +27,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/words.h"
 #include "solver/laws.h"
 
 enum { DERIVATIVES = 4 };

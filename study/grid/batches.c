@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "base/statement.h"
 #include "base/text.h"
@@ -272,12 +271,8 @@ enum br_status br_batches_read(struct br_study *studies, size_t count, const str
         read_batch(&r, studies, count, b);
     if (r.no_memory)
         return br_no_memory(err, "the results");
-    if (r.wrong || r.left)
-        return br_fail(err, BR_IO, "the results of the ranks: cut off, or too long");
-    for (size_t s = 0; s < count; s++) /* a study that failed has failed in all its norms */
-        for (struct br_study *norm = studies[s].next_norm; norm; norm = norm->next_norm)
-            norm->failure = studies[s].failure;
-    return BR_OK;
+    return r.wrong || r.left ? br_fail(err, BR_IO, "the results of the ranks: cut off, or too long")
+                             : BR_OK;
 }
 
 /* ---- whether ranks have read the same ---- */

@@ -106,17 +106,12 @@ double br_measure_seconds(const struct br_scene *scene, size_t n, size_t levels)
 
 static struct br_planned_march cell_of(const struct br_study *s, size_t cell)
 {
-    const struct br_resolution at = br_study_resolution(s, cell);
-    return (struct br_planned_march){
-        .scene = s->scene, .method = br_study_method(s, cell), .n = at.n, .steps = at.steps};
+    return br_planned(s->scene, br_study_method(s, cell), br_study_resolution(s, cell));
 }
 
 static struct br_planned_march reference_of(const struct br_study *s)
 {
-    return (struct br_planned_march){.scene = s->scene,
-                                     .method = &s->reference_method,
-                                     .n = s->reference.n,
-                                     .steps = s->reference.steps};
+    return br_planned(s->scene, &s->reference_method, s->reference);
 }
 
 double br_cell_seconds(const struct br_study *s, size_t cell)
@@ -179,9 +174,9 @@ void br_costs_add_study(struct br_costs *w, const struct br_study *s)
         add(w, &cell, br_cell_seconds(s, c));
     }
     const struct br_planned_march fine = reference_of(s);
-    if (s->reference_kind->create && s->reference_kind->nests)
+    if (s->reference_kind->nests)
         add(w, &fine, br_reference_seconds(s));
-    else if (s->reference_kind->create)
+    else
         add_time(w, br_reference_seconds(s));
 }
 

@@ -20,6 +20,13 @@ struct br_planned_march {
     double budget; /* work of a prediction, elements times solves; 0: as prediction.h says */
 };
 
+static inline struct br_planned_march br_planned(const struct br_scene *scene,
+                                                 const struct br_method *method,
+                                                 struct br_resolution at)
+{
+    return (struct br_planned_march){scene, method, at.n, at.steps, NULL, 0};
+}
+
 /* ---- one march ---- */
 
 /* An upper bound of the bytes, from measured bytes an element. */

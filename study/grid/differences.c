@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/grid/differences.h"
-
 #include "study/grid/sweep.h"
 
 /* Each pair of neighbouring cells is a study of one cell, against the finer one as a fine run.

@@ -2,7 +2,6 @@
 #include "study/grid/norms.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "solver/scene.h"
 
@@ -53,14 +52,6 @@ const struct br_norm br_norm_tip = {
 };
 
 const struct br_norm *const br_norms[] = {&br_norm_l2, &br_norm_energy, &br_norm_tip, NULL};
-
-const struct br_norm *br_norm_find(const char *name)
-{
-    for (const struct br_norm *const *norm = br_norms; *norm; norm++)
-        if (strcmp((*norm)->name, name) == 0)
-            return *norm;
-    return NULL;
-}
 
 bool br_norm_needs(const struct br_norm *norm, enum br_measure measure)
 {

@@ -44,7 +44,6 @@ extern const struct br_norm br_norm_l2, br_norm_energy, br_norm_tip;
 /* NULL-terminated, at most BR_MOST_NORMS; the first is the default. */
 enum { BR_MOST_NORMS = 8 };
 extern const struct br_norm *const br_norms[];
-const struct br_norm *br_norm_find(const char *name);
 
 /* Whether a norm is built from a measure. */
 bool br_norm_needs(const struct br_norm *norm, enum br_measure measure);

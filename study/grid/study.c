@@ -1,47 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/grid/study.h"
 
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-
 #include "study/scene/statement.h"
-
-size_t br_study_cells(const struct br_study *s)
-{
-    return s->path ? s->n_count : s->n_count * s->k_count;
-}
-
-const struct br_method *br_study_method(const struct br_study *s, size_t cell)
-{
-    return s->cell_method ? &s->cell_method[cell] : &s->method;
-}
-
-size_t br_study_row(const struct br_study *s, size_t cell)
-{
-    return s->path ? cell : cell / s->k_count;
-}
-
-struct br_resolution br_study_resolution(const struct br_study *s, size_t cell)
-{
-    return (struct br_resolution){s->n[br_study_row(s, cell)],
-                                  s->steps[s->path ? cell : cell % s->k_count]};
-}
-
-const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j)
-{
-    return &study->cell[i * study->k_count + j];
-}
-
-double br_reference_step(const struct br_study *s)
-{
-    return s->reference_kind->nests ? br_time_step(s->scene, s->reference.steps) : 0;
-}
-
-double br_reference_mesh(const struct br_study *s)
-{
-    return br_mesh_size(s->scene, s->reference.n);
-}
 
 void br_study_clear(struct br_study *study)
 {
@@ -78,21 +38,6 @@ void br_state_study(struct br_statement *s, const struct br_study *study)
 }
 
 /* ---- over h and over k ---- */
-
-size_t br_axis_count(const struct br_study *s, int axis)
-{
-    return axis == BR_AXIS_SPACE ? s->n_count : s->k_count;
-}
-
-double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at)
-{
-    return axis == BR_AXIS_SPACE ? br_mesh_size(scene, at.n) : br_time_step(scene, at.steps);
-}
-
-size_t br_axis_cell(const struct br_study *s, int axis, size_t along, size_t at)
-{
-    return axis == BR_AXIS_SPACE ? along * s->k_count + at : at * s->k_count + along;
-}
 
 /* ---- the grid ---- */
 
@@ -177,9 +122,6 @@ enum br_status br_study_prepare(struct br_study *s, struct br_error *err)
                        s->n_count == 0 ? "n" : "k");
     if (s->reference_kind->nests && (s->reference.n < 1 || s->reference.steps < 1))
         return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
-    if (s->path && s->n_count != s->k_count)
-        return br_fail(err, BR_BAD_INPUT, "a path has %zu n and %zu k, expected as many",
-                       s->n_count, s->k_count);
     for (size_t c = 0; c < br_study_cells(s); c++)
         if (br_study_method(s, c)->axial_degree != s->method.axial_degree)
             return br_fail(err, BR_BAD_INPUT, "the cells have axial elements of several degrees");
@@ -188,14 +130,11 @@ enum br_status br_study_prepare(struct br_study *s, struct br_error *err)
                        "the cells have axial elements of degree %d and the reference of degree %d, "
                        "expected the same",
                        s->method.axial_degree, s->reference_method.axial_degree);
-    const enum br_status status =
+    enum br_status status =
         s->reference_kind->nests ? check_nesting(s, err) : common_levels(s, err);
-    if (status)
-        return status;
-    enum br_status table = BR_OK;
-    for (struct br_study *norm = s; norm && !table; norm = norm->next_norm) {
+    for (struct br_study *norm = s; norm && !status; norm = norm->next_norm) {
         norm->reference = s->reference;
-        table = create_cells(norm, err);
+        status = create_cells(norm, err);
     }
-    return table;
+    return status;
 }

@@ -6,7 +6,6 @@
 
 #include "orders/axis.h"
 #include "reference/reference.h"
-#include "study/grid/engine.h"
 #include "study/grid/norms.h"
 #include "study/scene/resolution.h"
 
@@ -44,8 +43,7 @@ struct br_study {
     const size_t *steps;        /* k_count, borrowed */
     struct br_study *next_norm; /* the same study in another norm, all else being equal: measured
                                    on the same marches; NULL: none. Borrowed */
-    struct br_engine engine;    /* the same of all studies of a call; march NULL: the usual one
-                                   (engine.h) */
+    bool here;                  /* of all studies of a call: by this process (sweep.h) */
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_reference_report reference_report;
@@ -64,26 +62,49 @@ void br_study_clear(struct br_study *study);
 enum br_status br_study_prepare(struct br_study *study, struct br_error *err);
 
 /* How many cells a study has. */
-size_t br_study_cells(const struct br_study *study);
+static inline size_t br_study_cells(const struct br_study *s)
+{
+    return s->path ? s->n_count : s->n_count * s->k_count;
+}
 
 /* The method that marches a cell. */
-const struct br_method *br_study_method(const struct br_study *study, size_t cell);
+static inline const struct br_method *br_study_method(const struct br_study *s, size_t cell)
+{
+    return s->cell_method ? &s->cell_method[cell] : &s->method;
+}
 
 /* Which n[i] a cell has. */
-size_t br_study_row(const struct br_study *study, size_t cell);
+static inline size_t br_study_row(const struct br_study *s, size_t cell)
+{
+    return s->path ? cell : cell / s->k_count;
+}
 
 /* The resolution that a cell is to have. */
-struct br_resolution br_study_resolution(const struct br_study *study, size_t cell);
+static inline struct br_resolution br_study_resolution(const struct br_study *s, size_t cell)
+{
+    return (struct br_resolution){s->n[br_study_row(s, cell)],
+                                  s->steps[s->path ? cell : cell % s->k_count]};
+}
 
 /* The cell of row i (n) and column j (k); not of a path. */
-const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j);
+static inline const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size_t j)
+{
+    return &study->cell[i * study->k_count + j];
+}
 
 /* The least number of equal time steps that has the levels of a and of b; 0: more than 2^52. */
 size_t br_common_levels(size_t a, size_t b);
 
 /* The reference's own k, s, and h, m; 0 where it has none. */
-double br_reference_step(const struct br_study *study);
-double br_reference_mesh(const struct br_study *study);
+static inline double br_reference_step(const struct br_study *s)
+{
+    return s->reference_kind->nests ? br_time_step(s->scene, s->reference.steps) : 0;
+}
+
+static inline double br_reference_mesh(const struct br_study *s)
+{
+    return br_mesh_size(s->scene, s->reference.n);
+}
 
 /* All that a study asks in its norm. */
 void br_state_study(struct br_statement *statement, const struct br_study *study);
@@ -92,8 +113,19 @@ void br_state_study(struct br_statement *statement, const struct br_study *study
 
 /* The number of meshes, or of time steps, of a study; the size of one, m or s (0: the continuous
  * problem); and the index of a cell from its indices along an axis and along the other axis. */
-size_t br_axis_count(const struct br_study *study, int axis);
-double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at);
-size_t br_axis_cell(const struct br_study *study, int axis, size_t along, size_t at);
+static inline size_t br_axis_count(const struct br_study *s, int axis)
+{
+    return axis == BR_AXIS_SPACE ? s->n_count : s->k_count;
+}
+
+static inline double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at)
+{
+    return axis == BR_AXIS_SPACE ? br_mesh_size(scene, at.n) : br_time_step(scene, at.steps);
+}
+
+static inline size_t br_axis_cell(const struct br_study *s, int axis, size_t along, size_t at)
+{
+    return axis == BR_AXIS_SPACE ? along * s->k_count + at : at * s->k_count + along;
+}
 
 #endif

@@ -188,9 +188,7 @@ static enum br_status create_references(struct br_study_march *l, struct br_erro
         .lead = longest_lead(l),
         .mesh_count = l->root_meshes,
         .mesh = l->root_mesh,
-        .stop = l->observer ? l->observer->stop : NULL,
-        .stop_self = l->observer ? l->observer->self : NULL,
-        .preparing = l->observer ? l->observer->preparing : NULL,
+        .observer = l->observer,
     };
     for (const struct br_measured *f = l->measured; f < l->measured + BR_MEASURED; f++)
         request.measured[f->at.kind][f->at.measure] = f->used;

@@ -101,14 +101,6 @@ static bool is_fatal(const struct br_error *failure)
     return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
 }
 
-/* Whether a study succeeded. Copies its failure to all its norms. */
-static bool succeeded(struct br_study *first)
-{
-    for (struct br_study *s = first; s; s = s->next_norm)
-        s->failure = first->failure;
-    return !first->failure.status;
-}
-
 static enum br_status conclude(struct br_study_march *l, struct br_error *err)
 {
     if (l->failure.status)
@@ -120,7 +112,7 @@ static enum br_status conclude(struct br_study_march *l, struct br_error *err)
         br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
     if (is_fatal(&l->study->failure))
         return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);
-    if (!succeeded(l->study))
+    if (l->study->failure.status)
         return BR_OK;
     conclude_norms(l);
     enum br_status status = BR_OK;
@@ -153,9 +145,9 @@ enum br_status br_march_studies(struct br_study *studies, size_t count, int thre
     return status;
 }
 
-static struct br_engine usual = {br_march_studies};
+static br_engine *usual = br_march_studies;
 
-void br_engine_set(struct br_engine engine)
+void br_engine_set(br_engine *engine)
 {
     usual = engine;
 }
@@ -170,12 +162,15 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
     for (size_t i = 0; i < count && !status; i++)
         if (br_study_prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
-    const struct br_engine *engine = count && studies->engine.march ? &studies->engine : &usual;
+    br_engine *const march = count && studies->here ? br_march_studies : usual;
     if (!status)
-        status = engine->march(studies, count, threads, observer, err);
-    for (size_t i = 0; i < count && status; i++)
-        for (struct br_study *s = &studies[i]; s; s = s->next_norm)
-            br_study_clear(s);
+        status = march(studies, count, threads, observer, err);
+    for (size_t i = 0; i < count; i++)
+        for (struct br_study *s = &studies[i]; s; s = s->next_norm) {
+            s->failure = studies[i].failure;
+            if (status)
+                br_study_clear(s);
+        }
     return status;
 }
 

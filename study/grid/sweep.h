@@ -20,4 +20,30 @@ enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
 enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
                                  const struct br_observer *observer, struct br_error *err);
 
+/* ---- differences (differences.c): each cell against the same scheme on the next finer mesh, or
+ * with the next smaller time step (Richardson 1911; Roache 1998). They have the orders of the
+ * errors, and need no reference. ---- */
+
+/* Marches a grid (the first of a chain of norms; scene, norm, method, and lists n and steps,
+ * ascending) and measures its differences along an axis into
+ * out[0 .. norms): studies with one mesh or one time step less, whose cells are compared with their
+ * next finer neighbours, `against`.
+ * Fails with BR_BAD_INPUT where there is no neighbour, or as br_study_run does. */
+enum br_status br_differences_run(const struct br_study *grid, enum br_axis axis,
+                                  struct br_study *out, int threads,
+                                  const struct br_observer *observer, struct br_error *err);
+
+/* ---- engines ---- */
+
+/* An engine marches prepared studies (cells allocated, grids known to nest), all of a call at once;
+ * but not those that have failed already. br_march_studies is the one in this process: reference
+ * and cells side by side, as tasks. */
+typedef enum br_status br_engine(struct br_study *studies, size_t count, int threads,
+                                 const struct br_observer *observer, struct br_error *err);
+br_engine br_march_studies;
+
+/* The engine of studies that are not `here`, for the whole process: at first br_march_studies. For
+ * the main thread, before any study runs. */
+void br_engine_set(br_engine *engine);
+
 #endif

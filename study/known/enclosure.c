@@ -331,7 +331,7 @@ bool br_tree_taylor(const struct br_tree *tree, iv *work, enum br_variable along
     for (size_t i = 0; i < tree->count; i++) {
         const struct br_node *n = &tree->node[i];
         iv *out = work + i * size;
-        if (br_operation_arguments(n->operation)) {
+        if (br_operations[n->operation].arguments) {
             const iv *const argument[] = {work + n->argument[0] * size,
                                           work + n->argument[1] * size,
                                           work + n->argument[2] * size};
@@ -370,7 +370,7 @@ static iv slope_of(enum br_operation o, const struct form *const argument[3], in
     for (unsigned k = 0; k < 3; k++) {
         series[k][0] = argument[k]->range;
         series[k][1] = argument[k]->slope[direction];
-        constant &= k >= br_operation_arguments(o) || br_is_zero(series[k][1]);
+        constant &= k >= br_operations[o].arguments || br_is_zero(series[k][1]);
     }
     if (constant)
         return point(0);
@@ -411,7 +411,7 @@ static void cut(struct br_box box, struct br_box middle, struct form *f)
 
 static bool are_equal(const struct br_node *n)
 {
-    return br_operation_arguments(n->operation) == 2 && n->argument[0] == n->argument[1];
+    return br_operations[n->operation].arguments == 2 && n->argument[0] == n->argument[1];
 }
 
 static void bound_node(const struct br_node *n, const struct form *forms, bool wide,
@@ -442,7 +442,7 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
     for (size_t i = 0; i < tree->count; i++) {
         const struct br_node *n = &tree->node[i];
         struct form *f = &forms[i];
-        if (br_operation_arguments(n->operation))
+        if (br_operations[n->operation].arguments)
             bound_node(n, forms, wide, box, centre, f);
         else
             *f = (struct form){

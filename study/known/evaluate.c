@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes trees and evaluates them node by node over arrays of points. Nodes that do not use x are
  * computed once per call. */
-#include <math.h>
 #include <string.h>
 
 #include "study/known/expression.h"
@@ -9,24 +8,11 @@
 
 /* ---- trees ---- */
 
-static const struct {
-    unsigned arguments;
-    const char *word;
-} operations[] = {
+const struct br_operation_row br_operations[] = {
 #define X(name, arguments, word) {arguments, word},
     BR_OPERATION_LIST(X)
 #undef X
 };
-
-unsigned br_operation_arguments(enum br_operation operation)
-{
-    return operations[operation].arguments;
-}
-
-const char *br_operation_word(enum br_operation operation)
-{
-    return operations[operation].word;
-}
 
 void br_tree_clear(struct br_tree *tree)
 {
@@ -126,7 +112,7 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
         .operation = operation, .uses_x = operation == BR_OP_X, .uses_t = operation == BR_OP_T};
     double number[3] = {0};
     size_t numbers = 0;
-    for (unsigned i = 0; i < operations[operation].arguments; i++) {
+    for (unsigned i = 0; i < br_operations[operation].arguments; i++) {
         if (b->status || argument[i] == BR_NO_NODE)
             return BR_NO_NODE;
         const struct br_node *a = &b->tree.node[argument[i]];
@@ -139,7 +125,7 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
     const unsigned shorter = b->simplifies ? simplify(b, operation, first, second) : BR_NO_NODE;
     if (shorter != BR_NO_NODE || b->status)
         return shorter;
-    if (numbers && numbers == operations[operation].arguments)
+    if (numbers && numbers == br_operations[operation].arguments)
         return br_tree_number(b, br_operation_value(operation, number[0], number[1], number[2]));
     return find_or_append(b, &node);
 }
@@ -157,7 +143,7 @@ unsigned br_tree_substitute(struct br_tree_builder *b, const struct br_tree *fro
         return give_up(b, BR_NO_MEMORY);
     moved[root] = 1; /* first pass: whether each node is used */
     for (unsigned i = root + 1; i-- > 0;)
-        for (unsigned k = 0; moved[i] && k < operations[from->node[i].operation].arguments; k++)
+        for (unsigned k = 0; moved[i] && k < br_operations[from->node[i].operation].arguments; k++)
             moved[from->node[i].argument[k]] = 1;
     for (unsigned i = 0; i <= root; i++) { /* second pass: its new index */
         const struct br_node *n = &from->node[i];
@@ -341,7 +327,7 @@ static struct expression *create(struct br_tree *tree)
         const struct br_node *n = &own.node[i];
         if (n->operation == BR_OP_NUMBER)
             fill(values_of(e, i), CHUNK, n->number);
-        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
+        for (unsigned k = 0; k < br_operations[n->operation].arguments && done; k++)
             done = !needs_switching(&own, n, k) || add_switching(e, n, k);
     }
     if (done)

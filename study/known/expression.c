@@ -147,7 +147,7 @@ static unsigned number(struct parser *p)
 /* Reads the arguments of a function, after '('. */
 static unsigned call(struct parser *p, enum br_operation operation)
 {
-    const unsigned arguments = br_operation_arguments(operation);
+    const unsigned arguments = br_operations[operation].arguments;
     unsigned first = inner(p, expression);
     if (arguments == 2 && !take(p, ","))
         return unexpected(p, "',' and one more argument");
@@ -168,7 +168,7 @@ static bool find_function(const char *word, size_t length, enum br_operation *op
         return true;
     }
     for (int i = BR_OP_SIN; i <= BR_OP_MAX; i++) {
-        const char *known = br_operation_word((enum br_operation)i);
+        const char *known = br_operations[i].word;
         *operation = (enum br_operation)i;
         if (is_letter(*known) && strlen(known) == length && memcmp(known, word, length) == 0)
             return true;
@@ -183,8 +183,8 @@ static unsigned unknown_name(struct parser *p, size_t length)
     size_t count = 5;
     snprintf(word, sizeof word, "%.*s", (int)(length < 39 ? length : 39), p->at);
     for (int i = BR_OP_SIN; i <= BR_OP_MAX; i++)
-        if (is_letter(*br_operation_word((enum br_operation)i)))
-            names[count++] = br_operation_word((enum br_operation)i);
+        if (is_letter(*br_operations[i].word))
+            names[count++] = br_operations[i].word;
     return refuse(p, "unknown name '%s', %s", word, br_expected(word, names, count, expected));
 }
 

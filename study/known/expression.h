@@ -80,8 +80,10 @@ void br_tree_clear(struct br_tree *tree);
 double br_operation_value(enum br_operation operation, double a, double b, double c);
 
 /* The number of arguments of an operation, and its word. */
-unsigned br_operation_arguments(enum br_operation operation);
-const char *br_operation_word(enum br_operation operation);
+extern const struct br_operation_row {
+    unsigned arguments;
+    const char *word;
+} br_operations[];
 
 /* ---- construction ---- */
 

@@ -336,7 +336,7 @@ iv br_interval_apply(enum br_operation o, const iv *a, bool same)
 {
     if (o == BR_OP_CHOOSE)
         return choose(a[0], a[1], a[2]);
-    const unsigned arguments = br_operation_arguments(o);
+    const unsigned arguments = br_operations[o].arguments;
     for (unsigned i = 0; i < arguments; i++)
         if (br_is_none(a[i]))
             return br_no_interval;

@@ -4,11 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-const char *br_agreement_name(enum br_agreement agreement)
-{
-    static const char *const names[] = {"agree", "differ", "undecided"};
-    return names[agreement];
-}
+const char *const br_agreement_names[] = {"agree", "differ", "undecided"};
 
 struct br_finding br_claim_measure(const struct br_claim *claim, const struct br_paper *paper)
 {

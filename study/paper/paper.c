@@ -355,23 +355,12 @@ enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *r
                             const struct br_observer *observer, struct br_error *err)
 {
     *p = (struct br_paper){.request = *request};
-    if (request->n < 2 || request->n % 2 || request->per_second < 100 ||
-        request->per_second % 100 || !request->per_decade)
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "figures: n is %zu, expected an even number; steps of a second %zu, expected a "
-            "multiple of 100",
-            request->n, request->per_second);
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_EXAMPLES && !status; i++)
-        status = br_paper_scene(i, &p->example[i].scene, err);
-    if (!status)
-        status = create_sweeps(p, err);
-    if (!status)
-        status = run_tasks(p, observer, err);
-    if (!status)
-        status = run_tables(p, observer, err);
-    return status;
+    for (size_t i = 0; i < BR_EXAMPLES; i++)
+        if (br_paper_scene(i, &p->example[i].scene, err))
+            return err->status;
+    const bool failed =
+        create_sweeps(p, err) || run_tasks(p, observer, err) || run_tables(p, observer, err);
+    return failed ? err->status : BR_OK;
 }
 
 void br_paper_clear(struct br_paper *p)

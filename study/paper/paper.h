@@ -93,7 +93,7 @@ enum br_agreement {
     BR_DIFFERS,
     BR_UNDECIDED, /* the error bar spans both, or a value is not a number */
 };
-const char *br_agreement_name(enum br_agreement agreement); /* "agree", "differ", "undecided" */
+extern const char *const br_agreement_names[]; /* "agree", "differ", "undecided" */
 
 /* The result of a claim. NaN: not available. */
 struct br_finding {

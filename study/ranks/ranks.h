@@ -17,7 +17,7 @@ struct br_launch {
 struct br_launch br_launch_read(void);
 
 /* Joins the other ranks, if a launcher started more than one process: they then march all studies
- * together that name no engine (below). Else does nothing, so that a process that was started alone
+ * together that are not `here`. Else does nothing, so that a process that was started alone
  * starts fast. Fails with BR_UNSUPPORTED where there are others but
  * this build has no MPI, or BR_BAD_INPUT where MPI does not know of them: each process would then
  * run the whole, and all would write the same files. Also BR_IO, BR_NO_MEMORY. */

@@ -527,7 +527,7 @@ static enum br_status join(const struct br_launch *launch, struct br_error *err)
     MPI_Comm_dup(MPI_COMM_WORLD, &job.comm); /* of this program's own, with the same handler */
     enum br_status status = count_threads(err);
     if (!status && !(status = create_window(err)))
-        br_engine_set((struct br_engine){march_together});
+        br_engine_set(march_together);
     return status;
 }
 

@@ -2,8 +2,6 @@
 #include "study/run/history.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/clock.h"
 #include "base/words.h"
@@ -15,12 +13,6 @@ struct history_run {
     struct br_history_row row; /* of the level reached */
     size_t next_level;         /* index into request->level */
 };
-
-size_t br_history_stride(size_t steps, size_t most_rows)
-{
-    const size_t intervals = most_rows > 2 ? most_rows - 1 : 1;
-    return steps <= intervals ? 1 : (steps + intervals - 1) / intervals;
-}
 
 /* ---- rows ---- */
 

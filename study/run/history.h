@@ -63,7 +63,11 @@ enum br_status br_history_run(const struct br_history_request *request, struct b
                               struct br_history_end *end, struct br_error *err);
 
 /* The stride that makes at most so many rows, the first and the last included. */
-size_t br_history_stride(size_t steps, size_t most_rows);
+static inline size_t br_history_stride(size_t steps, size_t most_rows)
+{
+    const size_t intervals = most_rows > 2 ? most_rows - 1 : 1;
+    return steps <= intervals ? 1 : (steps + intervals - 1) / intervals;
+}
 
 /* ---- an observer that keeps what it gets ---- */
 
@@ -146,8 +150,7 @@ struct br_tip_watch {
     int direction; /* of the last slip */
 };
 
-const char *br_tip_event_word(enum br_tip_event_kind kind);
-const char *br_tip_regime_word(enum br_tip_regime regime);
+extern const char *const br_tip_event_words[], *const br_tip_regime_words[];
 
 /* An observer that fills a watch (out; it must outlive the march). */
 struct br_history_observer br_tip_watch_start(struct br_tip_watch *watch,

@@ -2,7 +2,6 @@
 #include "study/run/run.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Element-steps between two reports of progress. */

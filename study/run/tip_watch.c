@@ -4,17 +4,8 @@
 
 #include <math.h>
 
-const char *br_tip_event_word(enum br_tip_event_kind kind)
-{
-    static const char *const words[] = {"closed", "opened", "stuck", "slipped", "reversed"};
-    return words[kind];
-}
-
-const char *br_tip_regime_word(enum br_tip_regime regime)
-{
-    static const char *const words[] = {"free", "stick", "slip"};
-    return words[regime];
-}
+const char *const br_tip_event_words[] = {"closed", "opened", "stuck", "slipped", "reversed"},
+                  *const br_tip_regime_words[] = {"free", "stick", "slip"};
 
 static void add(struct br_tip_watch *w, enum br_tip_event_kind kind,
                 const struct br_history_row *row, int direction)

@@ -146,21 +146,16 @@ static enum br_status read_document(const struct br_scene_reader *r,
     const yaml_node_t *root = yaml_document_get_root_node(r->yaml.document);
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
-    enum br_status status = read_section(r, "", root);
-    if (!status)
-        status = set_name(r);
-    if (!status)
-        status = br_scene_derive(r);
     struct br_error inner = {0};
-    if (!status && br_scene_check(r->scene, &inner))
-        status = br_scene_pass_on(r, br_yaml_line(root), "scene", &inner);
-    if (!status)
-        status = br_scene_apply_solutions(r);
-    if (!status)
-        status = br_scene_check_functions(r, br_yaml_line(root));
-    if (!status && asked->take_verify)
-        status = asked->take_verify(r, br_yaml_value(&r->yaml, NULL, "verify"), asked->self);
-    return status;
+    if (read_section(r, "", root) || set_name(r) || br_scene_derive(r))
+        return r->yaml.err->status;
+    if (br_scene_check(r->scene, &inner))
+        return br_scene_pass_on(r, br_yaml_line(root), "scene", &inner);
+    if (br_scene_apply_solutions(r) || br_scene_check_functions(r, br_yaml_line(root)))
+        return r->yaml.err->status;
+    return asked->take_verify
+               ? asked->take_verify(r, br_yaml_value(&r->yaml, NULL, "verify"), asked->self)
+               : BR_OK;
 }
 
 /* The scene that a file is read into, and further requests. */

@@ -2,7 +2,6 @@
 /* The functions of a scene: those that follow from a solution, and the checks of all of them. */
 #include <gsl/gsl_deriv.h>
 #include <math.h>
-#include <string.h>
 
 #include "solver/proof.h"
 #include "study/known/expression.h"

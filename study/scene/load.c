@@ -4,12 +4,12 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <limits.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/load.h"
-#include "base/quote.h"
 #include "base/words.h"
 #include "study/scene/file.h"
 

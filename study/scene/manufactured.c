@@ -150,11 +150,10 @@ static enum br_status make_tip_force(const struct br_scene *s, enum br_field_kin
     if (!(axial ? s->contact.modelled : br_friction_rubs(&s->friction)))
         return br_function_derive(&d->given, &stress, f, err);
     struct parts p = {.u = {0}};
+    if (!axial && !bounds[s->friction.law])
+        return br_fail(err, BR_BAD_INPUT, "found it beside %s's law of friction, expected another",
+                       br_friction_models[s->friction.law].title);
     enum br_status status = br_function_derive(&d->given, &stress, &p.stress, err);
-    if (!status && !axial && !bounds[s->friction.law])
-        status =
-            br_fail(err, BR_BAD_INPUT, "found it beside %s's law of friction, expected another",
-                    br_friction_models[s->friction.law].title);
     if (!status && (axial || br_friction_follows_contact(&s->friction)))
         status = br_function_derive(&s->axial.given, &u, &p.u, err);
     if (!status && !axial)

@@ -176,22 +176,12 @@ const char *br_method_field_text(const struct br_method_field *f, const struct b
     return br_shortest(value, text, BR_METHOD_VALUE);
 }
 
-bool br_method_field_depends(const struct br_method_field *f)
-{
-    return f != &br_method_fields[f->by];
-}
-
 bool br_method_field_used(const struct br_method_field *f, const struct br_method *m)
 {
     return !br_method_field_depends(f)   ? true
            : f->by == BR_METHOD_SCHEME   ? m->scheme->adaptive
            : f->by == BR_METHOD_FRICTION ? m->friction->iterates
                                          : m->solver->takes_kernel;
-}
-
-bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m)
-{
-    return f->quiet || br_method_field_used(f, m);
 }
 
 bool br_methods_equal(const struct br_method *a, const struct br_method *b)
@@ -345,11 +335,12 @@ const char *br_method_taken(const struct br_meshes *on, const struct br_method *
     return text;
 }
 
+/* "" where the method does not use the field. */
 static void set_text(const struct br_method_field *f, const struct br_method *m, size_t size,
                      char *text)
 {
     char value[BR_METHOD_VALUE] = "";
-    if (br_method_field_reported(f, m))
+    if (f->quiet || br_method_field_used(f, m))
         br_method_field_text(f, m, value);
     snprintf(text, size, "%s", value);
 }

@@ -59,12 +59,14 @@ static inline const char *br_method_field_key(const struct br_method_field *f)
 const char *br_method_field_text(const struct br_method_field *f, const struct br_method *m,
                                  char text[BR_METHOD_VALUE]);
 
-/* Whether another field decides if this one is used; whether this one is used. */
-bool br_method_field_depends(const struct br_method_field *f);
-bool br_method_field_used(const struct br_method_field *f, const struct br_method *m);
+/* Whether another field decides if this one is used. */
+static inline bool br_method_field_depends(const struct br_method_field *f)
+{
+    return f != &br_method_fields[f->by];
+}
 
-/* Whether a report states the value: the method uses it, or the field is quiet. */
-bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m);
+/* Whether it is used. */
+bool br_method_field_used(const struct br_method_field *f, const struct br_method *m);
 
 bool br_methods_equal(const struct br_method *a, const struct br_method *b);
 

@@ -100,8 +100,8 @@ static bool contains(const struct br_named_methods *all, const struct br_named_m
     return false;
 }
 
-enum br_status br_named_methods_read(const char *option, const char *text,
-                                     struct br_named_methods *all, struct br_error *err)
+enum br_status br_named_methods_read(const char *text, struct br_named_methods *all,
+                                     struct br_error *err)
 {
     all->count = 0;
     for (const char *rest = text;; rest++) {
@@ -112,11 +112,11 @@ enum br_status br_named_methods_read(const char *option, const char *text,
         snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1),
                  rest);
         if (br_named_method_read(name, &c, &inner))
-            return br_fail(err, BR_BAD_INPUT, "%s: '%s': %s", option, name, inner.message);
+            return br_fail(err, BR_BAD_INPUT, "--methods: '%s': %s", name, inner.message);
         if (contains(all, &c))
-            return br_fail(err, BR_BAD_INPUT, "%s: %s is given twice", option, name);
+            return br_fail(err, BR_BAD_INPUT, "--methods: %s is given twice", name);
         if (all->count == BR_MOST_NAMED_METHODS)
-            return br_fail(err, BR_BAD_INPUT, "%s: more than %d methods", option,
+            return br_fail(err, BR_BAD_INPUT, "--methods: more than %d methods",
                            BR_MOST_NAMED_METHODS);
         all->list[all->count++] = c;
         rest += length;

@@ -28,9 +28,9 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *na
                                     struct br_error *err);
 
 /* Reads names separated by commas, each once; *methods (out). Fails with BR_BAD_INPUT, naming
- * the option. */
-enum br_status br_named_methods_read(const char *option, const char *text,
-                                     struct br_named_methods *methods, struct br_error *err);
+ * --methods. */
+enum br_status br_named_methods_read(const char *text, struct br_named_methods *methods,
+                                     struct br_error *err);
 
 /* Adds the method of a formatted name, unless it is none, the list has it already or is full, or
  * the scene refuses it; NULL: any scene. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene format: one row for each key. The reader, its messages and the template of
- * tables/beam/scene_format.h use this list. */
+ * tables/beam/reports.h use this list. */
 #ifndef BR_STUDY_SCENE_SCHEMA_H
 #define BR_STUDY_SCENE_SCHEMA_H
 

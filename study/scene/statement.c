@@ -29,8 +29,8 @@ static void state_function(struct br_statement *s, size_t i, const struct br_fun
         if (n->operation == BR_OP_NUMBER)
             state_number(s, "number", n->number);
         else
-            br_state(s, "node", "%s%u %u %u %u", br_operation_word(n->operation),
-                     br_operation_arguments(n->operation), n->argument[0], n->argument[1],
+            br_state(s, "node", "%s%u %u %u %u", br_operations[n->operation].word,
+                     br_operations[n->operation].arguments, n->argument[0], n->argument[1],
                      n->argument[2]);
     }
 }

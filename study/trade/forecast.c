@@ -9,17 +9,10 @@
 
 /* ---- a method ---- */
 
-static struct br_planned_march planned(const struct br_scene *scene, const struct br_trial *t,
-                                       const struct br_method *method)
-{
-    return (struct br_planned_march){
-        .scene = scene, .method = method, .n = t->at.n, .steps = t->at.steps};
-}
-
 double br_trial_work(const struct br_scene *scene, const struct br_trial *t)
 {
     const struct br_method method = br_trial_method(t);
-    const struct br_planned_march march = planned(scene, t, &method);
+    const struct br_planned_march march = br_planned(scene, &method, t->at);
     return br_march_seconds(&march);
 }
 
@@ -49,35 +42,12 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
             dearest = j;
     }
     const struct br_method method = br_trial_method(&trial[dearest]);
-    const struct br_planned_march march = planned(r->scene, &trial[dearest], &method);
+    const struct br_planned_march march = br_planned(r->scene, &method, trial[dearest].at);
     return br_observer_stops(r->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
                                           : br_march_pace(&march, &pace[i], err);
 }
 
 /* ---- the reference ---- */
-
-enum br_status br_trials_prepare_reference(const struct br_trial_request *r, void **self,
-                                           struct br_error *err)
-{
-    const struct br_reference *reference_kind = br_trials_reference(r);
-    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
-    struct br_reference_request request = {.scene = r->scene,
-                                           .levels = 1,
-                                           .lead = 1,
-                                           .stop = o->stop,
-                                           .stop_self = o->self,
-                                           .preparing = o->preparing};
-    *self = NULL;
-    return !reference_kind->create || reference_kind->nests
-               ? BR_OK
-               : reference_kind->create(self, &request, err);
-}
-
-void br_trials_release_reference(const struct br_trial_request *r, void *self)
-{
-    if (self)
-        br_trials_reference(r)->free(self);
-}
 
 static bool on_one_mesh(const struct br_trial *a, const struct br_trial *b)
 {
@@ -105,9 +75,9 @@ static double reference_seconds(const struct br_trial_request *r, const struct b
             mesh = false;
             levels = levels && trial[j].at.steps != at->steps;
         }
-    const double whole = s.reference_kind->create ? br_reference_seconds(&s) : 0;
+    const double whole = br_reference_seconds(&s);
     s.steps = &none;
-    const double set_up = s.reference_kind->create ? br_reference_seconds(&s) : 0;
+    const double set_up = br_reference_seconds(&s);
     return levels * (whole - set_up) + (mesh && s.reference_kind->nests) * set_up;
 }
 
@@ -150,29 +120,8 @@ static double sum_of(const struct br_trial *trial, size_t count)
     return sum;
 }
 
-/* Leaves out a trial; returns the seconds that this saves. What the reference did for it passes on
- * to the next trial on its mesh, and to the next one of its levels. */
-static double leave(const struct forecasting *f, struct br_trial *trial, size_t count, size_t left)
-{
-    double saved = trial[left].estimated;
-    bool mesh = false, levels = false;
-    trial[left].end = BR_TRIAL_LEFT;
-    for (size_t i = left + 1; i < count && !levels; i++) {
-        const bool same = trial[i].at.steps == trial[left].at.steps;
-        if (trial[i].end == BR_TRIAL_LEFT || !on_one_mesh(&trial[i], &trial[left]) ||
-            (mesh && !same))
-            continue;
-        mesh = true;
-        levels = same;
-        saved += trial[i].estimated;
-        estimate(f, trial, i);
-        saved -= trial[i].estimated;
-    }
-    return saved;
-}
-
 /* Leaves out the dearest trials until the others take no longer than allowed; one always remains.
- */
+ * What the reference did for a trial passes on to the next ones on its mesh. */
 static void leave_out(const struct forecasting *f, struct br_trial *trial, size_t count,
                       struct br_trial_forecast *forecast)
 {
@@ -183,11 +132,14 @@ static void leave_out(const struct forecasting *f, struct br_trial *trial, size_
             if (trial[i].end != BR_TRIAL_LEFT &&
                 (dearest == count || trial[i].estimated > trial[dearest].estimated))
                 dearest = i;
-        forecast->seconds -= leave(f, trial, count, dearest);
+        trial[dearest].end = BR_TRIAL_LEFT;
+        for (size_t i = dearest + 1; i < count; i++)
+            if (on_one_mesh(&trial[i], &trial[dearest]))
+                estimate(f, trial, i);
+        forecast->seconds = sum_of(trial, count);
         forecast->planned--;
         forecast->left++;
     }
-    forecast->seconds = sum_of(trial, count); /* without the round-off of differences */
     forecast->left_seconds = all - forecast->seconds;
 }
 

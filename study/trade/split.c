@@ -330,10 +330,7 @@ static void set_share(const struct br_split *split, const struct chain *c, size_
 static void set_whole(struct br_split *split, const struct chain *c)
 {
     const struct br_study *s = &c->d->study[0][c->whole];
-    const struct br_planned_march run = {.scene = split->scene,
-                                         .method = &split->method,
-                                         .n = split->at.n,
-                                         .steps = split->at.steps};
+    const struct br_planned_march run = br_planned(split->scene, &split->method, split->at);
     split->unstable = s->cell[0].unstable;
     split->predicted_round_off = br_predict_round_off(&run);
     for (size_t m = 0; m < split->norms; m++)
@@ -366,9 +363,6 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
 {
     struct chain c = {.refining.threads = threads};
     split->reference_kind = br_reference_best(split->scene);
-    if (split->at.n < 1 || split->at.steps < 1)
-        return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
-                       split->at.n < 1 ? "n" : "the number of time steps");
     c.refining.observer = observer ? *observer : (struct br_observer){0};
     c.refining.observer.progress = NULL; /* the chain takes longer */
     enum br_status status = refine(split, &c.refining, err);
@@ -388,15 +382,4 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     }
     distances_free(c.d);
     return status;
-}
-
-bool br_share_known(const struct br_share *share, size_t norm, enum br_part part)
-{
-    return share->error[norm][part] > share->floor[norm][part];
-}
-
-double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
-                       enum br_part part)
-{
-    return share->error[norm][part] / split->sum.error[norm][part];
 }

@@ -72,10 +72,16 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
                             struct br_error *err);
 
 /* Whether a component is above its floor. */
-bool br_share_known(const struct br_share *share, size_t norm, enum br_part part);
+static inline bool br_share_known(const struct br_share *share, size_t norm, enum br_part part)
+{
+    return share->error[norm][part] > share->floor[norm][part];
+}
 
 /* The norm of a component over the sum of all components' norms; NaN where that sum is 0. */
-double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
-                       enum br_part part);
+static inline double br_share_of_sum(const struct br_split *split, const struct br_share *share,
+                                     size_t norm, enum br_part part)
+{
+    return share->error[norm][part] / split->sum.error[norm][part];
+}
 
 #endif

@@ -10,18 +10,6 @@
 #include "solver/linear/linear_solver.h"
 #include "study/fit/fit.h"
 
-double br_trade_target(size_t digit)
-{
-    return pow(10, -(double)(BR_TRADE_FIRST_DIGIT + digit));
-}
-
-double br_trade_digits_per_second(const struct br_trial *trial)
-{
-    if (!isfinite(br_trial_bound(trial)))
-        return NAN;
-    return -log10(br_trial_relative(trial)) / br_trial_seconds(trial);
-}
-
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end)
 {
     size_t count = 0;
@@ -232,12 +220,22 @@ static enum br_status refine(struct br_trade *t, struct br_error *err)
 
 /* ---- all of it ---- */
 
+/* Creates the reference, which keeps its results for all later calls; NULL: it is not needed. */
+static enum br_status prepare_reference(struct br_trade *t, struct br_error *err)
+{
+    const struct br_reference *reference = br_trials_reference(&t->request);
+    const struct br_reference_request request = {
+        .scene = t->request.scene, .levels = 1, .lead = 1, .observer = t->request.observer};
+    t->reference = NULL;
+    return reference->nests ? BR_OK : reference->create(&t->reference, &request, err);
+}
+
 /* The reference's set-up and the forecast itself count: as seconds of this thread, which do not
  * depend on other work of the machine. */
 enum br_status br_trade_estimate(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds(), begin = br_thread_seconds(), seconds = t->request.seconds;
-    enum br_status status = br_trials_prepare_reference(&t->request, &t->reference, err);
+    enum br_status status = prepare_reference(t, err);
     if (seconds > 0)
         t->request.seconds = fmax(seconds - (br_thread_seconds() - begin), seconds / 10);
     if (!status)
@@ -264,7 +262,8 @@ enum br_status br_trade_run(struct br_trade *t, struct br_error *err)
 
 void br_trade_clear(struct br_trade *t)
 {
-    br_trials_release_reference(&t->request, t->reference);
+    if (t->reference)
+        br_trials_reference(&t->request)->free(t->reference);
     free(t->trial);
     free(t->point);
     t->trial = NULL;

@@ -8,13 +8,19 @@
 #ifndef BR_STUDY_TRADE_TRADE_H
 #define BR_STUDY_TRADE_TRADE_H
 
+#include <math.h>
+
 #include "orders/work.h"
 #include "reference/printed.h"
 #include "study/trade/trial.h"
 
 /* Targets: relative errors of 1e-2 to 1e-10. */
-enum { BR_TRADE_FIRST_DIGIT = 2, BR_TRADE_LAST_DIGIT = 10, BR_TRADE_DIGITS = 9 };
-double br_trade_target(size_t digit); /* 0 .. BR_TRADE_DIGITS - 1 */
+enum { BR_TRADE_FIRST_DIGIT = 2, BR_TRADE_DIGITS = 9 };
+/* digit: 0 .. BR_TRADE_DIGITS - 1 */
+static inline double br_trade_target(size_t digit)
+{
+    return pow(10, -(double)(BR_TRADE_FIRST_DIGIT + digit));
+}
 
 /* The resolutions to try. Lists are borrowed; an empty one means the default. */
 struct br_trade_grid {
@@ -66,7 +72,12 @@ void br_trade_clear(struct br_trade *trade);
 bool br_trade_is_printed_method(const struct br_named_method *named);
 
 /* -log10 of the relative error, over the seconds; NaN: no trial that counts. */
-double br_trade_digits_per_second(const struct br_trial *trial);
+static inline double br_trade_digits_per_second(const struct br_trial *trial)
+{
+    if (!isfinite(br_trial_bound(trial)))
+        return NAN;
+    return -log10(br_trial_relative(trial)) / br_trial_seconds(trial);
+}
 
 static inline bool br_trade_has_goal(const struct br_trade *trade)
 {

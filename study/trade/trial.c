@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/trade/trial.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -35,37 +34,6 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
         .repeat_seconds = 0.01,
         .time_limit = 10,
     };
-}
-
-struct br_method br_trial_method(const struct br_trial *trial)
-{
-    struct br_method method = trial->named->method;
-    if (trial->named->method.scheme->adaptive)
-        method.tolerance = trial->tolerance;
-    return method;
-}
-
-bool br_trials_same(const struct br_trial *a, const struct br_trial *b)
-{
-    return a->named == b->named && a->at.n == b->at.n && a->at.steps == b->at.steps &&
-           a->tolerance == b->tolerance;
-}
-
-double br_trial_seconds(const struct br_trial *trial)
-{
-    return trial->cost.set_up + trial->cost.march;
-}
-
-double br_trial_relative(const struct br_trial *trial)
-{
-    return trial->scale > 0 ? trial->error[BR_PART_TOTAL] / trial->scale : NAN;
-}
-
-double br_trial_bound(const struct br_trial *trial)
-{
-    const double own = isfinite(trial->own) ? trial->own : 0;
-    const bool counts = trial->end == BR_TRIAL_DONE || trial->end == BR_TRIAL_DOUBTFUL;
-    return counts && trial->scale > 0 ? (trial->error[BR_PART_TOTAL] + own) / trial->scale : NAN;
 }
 
 /* ---- seconds ---- */
@@ -156,14 +124,15 @@ static double between(double begin, double end)
     return round(1e9 * (end - begin)) / 1e9;
 }
 
-enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request *r,
-                              struct br_trial_cost *cost, struct br_error *err)
+/* Marches once, until the end or the time limit; *cost (out). Fails as the march does, with the
+ * reason in t->failure; with BR_VERDICT, where t->end is BR_TRIAL_OVER; or with BR_INTERRUPTED. */
+static enum br_status march(struct br_trial *t, const struct br_trial_request *r,
+                            struct br_trial_cost *cost, struct br_error *err)
 {
     struct clocked c = {
         .trial = t, .request = r, .every = 1 + (size_t)(between_readings / (double)t->at.n)};
     const struct br_method method = br_trial_method(t);
-    const struct br_planned_march planned = {
-        .scene = r->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+    const struct br_planned_march planned = br_planned(r->scene, &method, t->at);
     *cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
     c.start = br_thread_seconds();
@@ -178,13 +147,11 @@ enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request 
     status = make_steps(&c, err);
     cost->march = between(begin, br_thread_seconds());
     cost->counts = br_march_counts(c.march);
-    cost->levels = br_march_steps_done(c.march);
-    if (!status && cost->levels < t->at.steps) {
-        const size_t others = t->at.steps - cost->levels;
-        cost->march *= (double)t->at.steps / (double)cost->levels;
+    const size_t done = br_march_steps_done(c.march), others = t->at.steps - done;
+    if (!status && others) {
+        cost->march *= (double)t->at.steps / (double)done;
         cost->counts.steps += others;
         cost->counts.stages += others * (size_t)br_time_scheme_stages(method.scheme);
-        cost->levels = t->at.steps;
     }
     br_march_free(c.march);
     return status;
@@ -199,7 +166,7 @@ static enum br_status repeat(struct br_trial *t, const struct br_trial_request *
     bool warm = false;
     for (double spent = 0;
          !status && (!warm || (least.repeats < r->repeats && spent <= r->repeat_seconds));) {
-        status = br_trial_march(t, r, &now, err);
+        status = march(t, r, &now, err);
         const double seconds = now.set_up + now.march;
         const bool counts = warm || !(seconds <= r->repeat_seconds);
         warm = true;
@@ -364,19 +331,10 @@ static void clear(struct groups *g)
     free(g->method);
 }
 
-const struct br_reference *br_trials_reference(const struct br_trial_request *r)
-{
-    return r->reference_kind ? r->reference_kind : br_reference_best(r->scene);
-}
-
 /* Finds the errors of the complete trials. */
 static enum br_status find_errors(struct br_trial *trial, size_t count,
                                   const struct br_trial_request *request, struct br_error *err)
 {
-    const struct br_reference *reference_kind = br_trials_reference(request);
-    if (!reference_kind->create)
-        return br_fail(err, BR_BAD_INPUT, "there is no reference for this scene: %s",
-                       reference_kind->title);
     if (count == 0)
         return BR_OK;
     struct groups g = {.study = br_allocate(count, sizeof *g.study),

@@ -7,6 +7,8 @@
 #ifndef BR_STUDY_TRADE_TRIAL_H
 #define BR_STUDY_TRADE_TRIAL_H
 
+#include <math.h>
+
 #include "base/observer.h"
 #include "study/grid/study.h"
 #include "study/scene/named_method.h"
@@ -28,7 +30,6 @@ struct br_trial_cost {
     double set_up, march; /* s of the processor, one thread; NaN: it did not end */
     size_t repeats;       /* marches that were timed */
     struct br_counts counts;
-    size_t levels; /* time levels that were reached */
 };
 
 struct br_trial {
@@ -90,43 +91,53 @@ enum br_status br_trials_estimate(struct br_trial *trial, size_t count,
                                   const struct br_trial_request *request,
                                   struct br_trial_forecast *forecast, struct br_error *err);
 
-/* Creates a reference, *self (out), that keeps its results for all later calls; NULL: not needed.
- * Fails as the reference does; release it even then. */
-enum br_status br_trials_prepare_reference(const struct br_trial_request *request, void **self,
-                                           struct br_error *err);
-void br_trials_release_reference(const struct br_trial_request *request,
-                                 void *self); /* accepts NULL */
-
 /* Runs trials: times all, one after the other, then finds the errors of the complete ones, all at
  * once. A march that fails is a result, and a march over the limit is ended as soon as that is
- * sure. Fails with BR_BAD_INPUT (there is no reference of this scene), BR_NO_MEMORY,
- * BR_INTERRUPTED. */
+ * sure. Fails as br_study_run does. */
 enum br_status br_trials_run(struct br_trial *trial, size_t count,
                              const struct br_trial_request *request, struct br_error *err);
 
 /* Whether it is the same method at the same resolution. */
-bool br_trials_same(const struct br_trial *a, const struct br_trial *b);
-
-/* Marches a trial once, until its end or the time limit; *cost (out). Fails as the march does, with
- * the reason in trial->failure; with BR_VERDICT, where trial->end is BR_TRIAL_OVER; or with
- * BR_INTERRUPTED. */
-enum br_status br_trial_march(struct br_trial *trial, const struct br_trial_request *request,
-                              struct br_trial_cost *cost, struct br_error *err);
+static inline bool br_trials_same(const struct br_trial *a, const struct br_trial *b)
+{
+    return a->named == b->named && a->at.n == b->at.n && a->at.steps == b->at.steps &&
+           a->tolerance == b->tolerance;
+}
 
 /* The reference of the request, or the best reference of the scene. */
-const struct br_reference *br_trials_reference(const struct br_trial_request *request);
+static inline const struct br_reference *br_trials_reference(const struct br_trial_request *r)
+{
+    return r->reference_kind ? r->reference_kind : br_reference_best(r->scene);
+}
 
 /* Seconds of set-up and march; NaN: the march is not complete. */
-double br_trial_seconds(const struct br_trial *trial);
+static inline double br_trial_seconds(const struct br_trial *trial)
+{
+    return trial->cost.set_up + trial->cost.march;
+}
 
 /* The error over the norm of the solution; NaN: none. */
-double br_trial_relative(const struct br_trial *trial);
+static inline double br_trial_relative(const struct br_trial *trial)
+{
+    return trial->scale > 0 ? trial->error[BR_PART_TOTAL] / trial->scale : NAN;
+}
 
 /* An upper bound of the relative error: the reference's own error is added. NaN: the trial has no
  * error that counts. */
-double br_trial_bound(const struct br_trial *trial);
+static inline double br_trial_bound(const struct br_trial *trial)
+{
+    const double own = isfinite(trial->own) ? trial->own : 0;
+    const bool counts = trial->end == BR_TRIAL_DONE || trial->end == BR_TRIAL_DOUBTFUL;
+    return counts && trial->scale > 0 ? (trial->error[BR_PART_TOTAL] + own) / trial->scale : NAN;
+}
 
 /* The method that a trial marches with: its named method's, with the trial's tolerance. */
-struct br_method br_trial_method(const struct br_trial *trial);
+static inline struct br_method br_trial_method(const struct br_trial *trial)
+{
+    struct br_method method = trial->named->method;
+    if (trial->named->method.scheme->adaptive)
+        method.tolerance = trial->tolerance;
+    return method;
+}
 
 #endif

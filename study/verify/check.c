@@ -320,13 +320,6 @@ static enum br_status conclude_check(const struct plan *plan, const struct br_sc
 enum br_status br_check_run(const struct br_scene_check *checks, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err)
 {
-    for (size_t i = 0; i < count; i++) {
-        struct br_check *check = checks[i].check;
-        check->failure = (struct br_error){0};
-        check->cases = NULL;
-        check->count = 0;
-        check->seconds = check->element_steps = 0;
-    }
     struct plan plan = {0};
     enum br_status status = make_plan(&plan, checks, count, err);
     if (!status)

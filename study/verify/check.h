@@ -9,8 +9,8 @@
 #include "study/fit/fit.h"
 #include "study/verify/verify.h"
 
-/* A scene, what is expected of it, and its check. Begins with these three; begin it before it is
- * compared or reported. */
+/* A scene, what is expected of it, and its check, which begins as zeros. Begins with these three;
+ * begin it before it is compared or reported. */
 struct br_scene_check {
     const struct br_scene *scene;   /* borrowed */
     const struct br_verify *verify; /* borrowed */

@@ -7,11 +7,6 @@
 #include "base/words.h"
 #include "study/fit/theory.h"
 
-size_t br_verify_points(enum br_verify_kind kind, size_t cells)
-{
-    return kind == BR_VERIFY_JOINT || cells == 0 ? cells : cells - 1;
-}
-
 /* ---- defaults ---- */
 
 enum { CELLS = 5 };

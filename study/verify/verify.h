@@ -34,7 +34,10 @@ struct br_verify {
 };
 
 /* How many errors a study with so many cells gives: one less where neighbours are compared. */
-size_t br_verify_points(enum br_verify_kind kind, size_t cells);
+static inline size_t br_verify_points(enum br_verify_kind kind, size_t cells)
+{
+    return kind == BR_VERIFY_JOINT || cells == 0 ? cells : cells - 1;
+}
 
 /* The default expectations of a scene: what theory states (study/fit/theory.h) of the default
  * method, in the norm of (31). Fails with BR_NO_MEMORY. */

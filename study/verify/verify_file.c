@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/verify/verify.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -142,7 +141,9 @@ static bool parse_what(const char *text, struct br_verify_expectation *e)
     const int words = sscanf(text, "%63s %63s %c", norm, part, &rest);
     if (words < 1 || words > 2)
         return false;
-    e->norm = br_norm_find(norm);
+    for (size_t i = 0; br_norms[i]; i++)
+        if (strcmp(br_norms[i]->name, norm) == 0)
+            e->norm = br_norms[i];
     for (int p = 0; p < BR_PARTS; p++)
         if (strcmp(br_part_names[p], part) == 0) {
             e->part = (enum br_part)p;
@@ -221,9 +222,8 @@ static enum br_status read_method(struct study_part *b)
             br_method_field_read(&br_method_fields[i - FIELDS], b->text[i], m, &inner))
             return br_scene_pass_on(b->r, b->line[i], name_of(i), &inner);
     const char *const *text = b->text + FIELDS;
-    enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, m, &inner);
-    if (!status)
-        status = br_method_check_used(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
+    if (!br_method_read(text, BR_METHOD_IN_SCENE, m, &inner))
+        br_method_check_used(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
     return br_scene_pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
 }
 
@@ -242,13 +242,9 @@ static enum br_status read_block(struct study_part *b, const yaml_node_t *node)
          p < node->data.mapping.pairs.top && !status; p++)
         status = read_key(b, yaml_document_get_node(r->yaml.document, p->key),
                           yaml_document_get_node(r->yaml.document, p->value));
-    if (!status)
-        status = read_lists(b);
-    if (!status)
-        status = read_method(b);
-    if (!status)
-        status = check_counts(b);
-    return status ? status : make_cells(b);
+    return status || read_lists(b) || read_method(b) || check_counts(b) || make_cells(b)
+               ? r->yaml.err->status
+               : BR_OK;
 }
 
 /* What --set has set has no line in the file. */

@@ -2,7 +2,6 @@
 #include "tables/beam/fields_file.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/quote.h"
 

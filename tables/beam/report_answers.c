@@ -166,8 +166,6 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
     answer_printed(d, r);
 }
 
-/* ---- notes ---- */
-
 /* ---- notes and facts ---- */
 
 /* Puts the reference of a study. */

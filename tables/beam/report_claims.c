@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/fit/fit.h"
+#include "orders/estimate.h"
 #include "study/paper/paper.h"
 #include "tables/beam/reports.h"
 
@@ -37,7 +37,7 @@ void br_report_claims(const struct br_finding *finding, size_t n, size_t per_sec
         const struct br_claim *c = &br_claims[i];
         const struct br_finding *f = &finding[i];
         br_put_row(d);
-        BR_PUT(d, br_text(br_agreement_name(f->agreement)), .key = "agreement");
+        BR_PUT(d, br_text(br_agreement_names[f->agreement]), .key = "agreement");
         BR_PUT(d, br_text(c->name), .key = "claim", .flags = BR_FOR_PROGRAMS);
         BR_PUT(d, br_text(c->section), .key = "section");
         BR_PUT(d, br_if(c->figure, br_count((size_t)c->figure)), .key = "figure",

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from the errors of a study: the joint fits, contradictions in the printed table; and
  * all its facts, for programs. */
-#include <math.h>
 
 #include "solver/scene.h"
 #include "study/fit/report.h"
@@ -135,21 +134,21 @@ void br_put_study_facts(struct br_document *d, const struct br_report *r)
         put_reference(d, "exact_reference", r->exact);
     for (enum br_part part = 0; part < BR_PARTS; part++)
         for (int i = 0; i < BR_AXES; i++) {
-            const struct br_observed_order *observed = &r->observed[part][i];
-            const char *name = br_part_names[part], *in = br_axis_letters[i];
-            if (!observed->asked)
-                continue;
-            br_hide_fact(d, br_number(observed->order.value), NULL, "orders.%s.%s.order", name, in);
-            br_hide_fact(d, br_number(observed->order.low), NULL, "orders.%s.%s.low", name, in);
-            br_hide_fact(d, br_number(observed->order.high), NULL, "orders.%s.%s.high", name, in);
-            br_hide_fact(d, br_number(observed->theory.order), NULL, "orders.%s.%s.theory", name,
-                         in);
-            br_hide_fact(d, br_number(observed->theory.highest), NULL,
-                         "orders.%s.%s.theory_highest", name, in);
-            br_hide_fact(d, br_text(observed->theory.reason), NULL, "orders.%s.%s.theory_reason",
-                         name, in);
-            br_hide_fact(d, br_text(observed->by), NULL, "orders.%s.%s.by", name, in);
-            br_hide_fact(d, br_text(observed->remark), NULL, "orders.%s.%s.remark", name, in);
+            const struct br_observed_order *o = &r->observed[part][i];
+            const struct {
+                const char *key;
+                struct br_value value;
+            } facts[] = {{"order", br_number(o->order.value)},
+                         {"low", br_number(o->order.low)},
+                         {"high", br_number(o->order.high)},
+                         {"theory", br_number(o->theory.order)},
+                         {"theory_highest", br_number(o->theory.highest)},
+                         {"theory_reason", br_text(o->theory.reason)},
+                         {"by", br_text(o->by)},
+                         {"remark", br_text(o->remark)}};
+            for (size_t f = 0; f < sizeof facts / sizeof *facts && o->asked; f++)
+                br_hide_fact(d, facts[f].value, NULL, "orders.%s.%s.%s", br_part_names[part],
+                             br_axis_letters[i], facts[f].key);
         }
     br_hide_fact(d, br_count(finest->at.n), NULL, "finest.n");
     br_hide_fact(d, br_number(br_step_of(fitted, finest)), "s", "finest.k");

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What several reports of the beam have: a method, and a trial of one. */
+/* What several reports of the beam have: a method. */
 #ifndef BR_TABLES_BEAM_REPORT_PARTS_H
 #define BR_TABLES_BEAM_REPORT_PARTS_H
 
+#include "study/grid/study.h"
 #include "study/scene/method_fields.h"
-#include "study/trade/trial.h"
 #include "tables/beam/reports.h"
 #include "tables/report_cells.h"
 
@@ -14,15 +14,6 @@
 void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *method,
                          const struct br_meshes *on);
 void br_put_method_cells(struct br_document *d, const struct br_method *method);
-
-/* Cells: method, n, steps_or_levels, k and tolerance; people see a tolerance instead of k. */
-void br_put_trial(struct br_document *d, const struct br_scene *scene,
-                  const struct br_trial *trial);
-
-/* "bdf2, n = 100, k = 0.01 s", or "adaptive, n = 100, tolerance 0.0001"; returns `text`. */
-enum { BR_TRIAL_TEXT = 160 };
-const char *br_trial_text(const struct br_scene *scene, const struct br_trial *trial,
-                          char text[BR_TRIAL_TEXT]);
 
 /* ---- of a study (report_study.c, report_answers.c, report_fits.c) ---- */
 

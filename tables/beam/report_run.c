@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "study/estimate/prediction.h"
-#include "study/fit/fit.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
 #include "tables/beam/report_parts.h"
@@ -87,13 +86,12 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
     if (w->contact)
         br_put_more(d, "%s contact %s", between, w->closed ? "closed" : "open");
     if (w->friction && w->steps)
-        br_put_more(d, ", friction: %s%s", br_tip_regime_word(w->regime),
+        br_put_more(d, ", friction: %s%s", br_tip_regime_words[w->regime],
                     w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
     br_put_more(d, ".");
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
         if (w->count[kind]) {
-            br_put_more(d, "%s %s %zu", before, br_tip_event_word((enum br_tip_event_kind)kind),
-                        w->count[kind]);
+            br_put_more(d, "%s %s %zu", before, br_tip_event_words[kind], w->count[kind]);
             before = ",";
         }
     br_put_more(d, *before == ',' ? "." : "");
@@ -210,7 +208,7 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
     put_number(d, f, friction ? bound : NAN, error, "  its bound", "N", "tip.friction_bound");
     BR_FACT(d, br_if(friction, br_number(100 * fabs(force) / bound)), .key = "tip.friction_share",
             .heading = "  of the bound", .unit = "%", .format = "%.4g");
-    BR_FACT(d, br_if(friction && w->steps, br_text(br_tip_regime_word(w->regime))),
+    BR_FACT(d, br_if(friction && w->steps, br_text(br_tip_regime_words[w->regime])),
             .key = "tip.regime", .heading = "friction");
     br_put_mark(d, w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
     put_extreme(d, f, friction, "largest_friction_force", "largest friction force",
@@ -311,22 +309,21 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
     BR_FACT(d, br_if(w->contact, br_truth(w->closed_at_start)), .key = "events.closed_at_start",
             .heading = "at first");
     br_put_shown(d, "%s", w->closed_at_start ? "closed" : "open");
-    BR_FACT(d, br_if(w->friction && w->steps, br_text(br_tip_regime_word(w->regime_at_start))),
+    BR_FACT(d, br_if(w->friction && w->steps, br_text(br_tip_regime_words[w->regime_at_start])),
             .key = "events.regime_at_start", .heading = "in the first step");
     br_put_mark(d, direction(w->direction_at_start));
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
-        const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
+        const char *word = br_tip_event_words[kind];
         br_put_fact_as(d, br_count(w->count[kind]), w->contact || w->friction ? word : NULL, NULL,
                        "events.counts.%s", word);
     }
     put_steps(d, w->contact, "closed", w->closed_steps, w->steps);
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
-        put_steps(d, w->friction, br_tip_regime_word((enum br_tip_regime)regime),
-                  w->regime_steps[regime], w->steps);
+        put_steps(d, w->friction, br_tip_regime_words[regime], w->regime_steps[regime], w->steps);
     BR_TABLE(d, "events", "When", 0, columns);
     for (const struct br_tip_event *e = w->event; e < w->event + w->events; e++) {
         const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
-        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
+        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_words[e->kind]),
                    br_if(e->direction, sign));
         br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
         BR_PUT_CELLS(d, br_count(e->step));

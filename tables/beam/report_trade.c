@@ -9,12 +9,49 @@
 
 enum { TEXT = 1024 };
 
+/* k, s; NaN where the scheme chooses its steps. */
+static double step_of(const struct br_scene *scene, const struct br_trial *t)
+{
+    return t->named->method.scheme->adaptive ? (double)NAN : br_time_step(scene, t->at.steps);
+}
+
+/* Cells: method, n, steps_or_levels, k and tolerance; people see a tolerance instead of k. */
+static void put_trial(struct br_document *d, const struct br_scene *scene, const struct br_trial *t)
+{
+    const bool adaptive = t->named->method.scheme->adaptive;
+    BR_PUT(d, br_text(t->named->name), .key = "method");
+    BR_PUT(d, br_count(t->at.n), .key = "n");
+    char taken[BR_METHOD_TEXT];
+    br_hide(d, "solver_taken", NULL,
+            br_text(br_method_taken(&(struct br_meshes){scene, &t->at.n, 1}, &t->named->method,
+                                    taken)));
+    br_hide(d, "steps_or_levels", NULL, br_count(t->at.steps));
+    br_hide(d, "tolerance", NULL, br_if(adaptive, br_number(t->tolerance)));
+    BR_PUT(d, br_number(step_of(scene, t)), .key = "k", .unit = "s");
+    if (adaptive)
+        br_put_shown(d, "tol %.4g", t->tolerance);
+}
+
+/* "bdf2, n = 100, k = 0.01 s", or "adaptive, n = 100, tolerance 0.0001"; returns `text`. */
+enum { TRIAL_TEXT = 160 };
+static const char *trial_text(const struct br_scene *scene, const struct br_trial *t,
+                              char text[TRIAL_TEXT])
+{
+    if (t->named->method.scheme->adaptive)
+        snprintf(text, TRIAL_TEXT, "%s, n = %zu, tolerance %.4g", t->named->name, t->at.n,
+                 t->tolerance);
+    else
+        snprintf(text, TRIAL_TEXT, "%s, n = %zu, k = %.6g s", t->named->name, t->at.n,
+                 step_of(scene, t));
+    return text;
+}
+
 /* "bdf2, n = 100, k = 0.01 s; 1.2e-05 CPU s, relative error 3.45e-04" */
 static const char *describe(const struct br_trade *t, size_t i, char text[TEXT])
 {
-    char trial[BR_TRIAL_TEXT];
+    char trial[TRIAL_TEXT];
     snprintf(text, TEXT, "%s; %.3g CPU s, relative error %.2e",
-             br_trial_text(t->request.scene, &t->trial[i], trial), br_trial_seconds(&t->trial[i]),
+             trial_text(t->request.scene, &t->trial[i], trial), br_trial_seconds(&t->trial[i]),
              br_trial_relative(&t->trial[i]));
     return text;
 }
@@ -82,7 +119,7 @@ static void put_outcome(struct br_document *d, const struct br_trade *t, size_t 
     const struct br_counts *c = &trial->cost.counts;
     const double *error = trial->error;
     const char *unit = t->request.norm->unit;
-    br_put_trial(d, t->request.scene, trial);
+    put_trial(d, t->request.scene, trial);
     BR_PUT(d, br_number(br_trial_relative(trial)), .key = "relative_error",
            .heading = "relative error", .format = "%.2e");
     BR_PUT(d, br_number(error[BR_PART_TOTAL]), .key = "error", .unit = unit, .format = "%.3e");
@@ -160,7 +197,7 @@ static const char *error_text(double error, bool achieved, char text[ERROR_TEXT]
 /* "Cheapest way to 1e-3: bdf2+p2, n = 3, k = 0.1 s (error 4.5e-4)." */
 static void answer_goal(struct br_document *d, const struct br_trade *t)
 {
-    char trial[BR_TRIAL_TEXT], goal[ERROR_TEXT], error[ERROR_TEXT];
+    char trial[TRIAL_TEXT], goal[ERROR_TEXT], error[ERROR_TEXT];
     const struct br_trial *best = &t->trial[t->chosen];
     error_text(t->goal.error, false, goal);
     if (t->chosen == t->count) {
@@ -175,7 +212,7 @@ static void answer_goal(struct br_document *d, const struct br_trade *t)
         br_put_answer(d, "Cheapest way to %s: ", goal);
     else
         br_put_answer(d, "Least error within %g CPU s: ", t->goal.seconds);
-    br_put_more(d, "%s (error %s).", br_trial_text(t->request.scene, best, trial),
+    br_put_more(d, "%s (error %s).", trial_text(t->request.scene, best, trial),
                 error_text(br_trial_bound(best), true, error));
     br_put_answer(d, "It takes %.3g CPU s for %zu steps.", br_trial_seconds(best),
                   best->cost.counts.steps);
@@ -304,7 +341,7 @@ void br_report_trade(const struct br_trade *t, const char *words,
         if (!trial->failure.status)
             continue;
         br_put_row(d);
-        br_put_trial(d, t->request.scene, trial);
+        put_trial(d, t->request.scene, trial);
         BR_PUT(d, br_text(br_trial_end_names[trial->end]), .key = "end");
         BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
     }
@@ -349,7 +386,7 @@ void br_report_trade(const struct br_trade *t, const char *words,
 /* "example1: to 1e-03 bdf2, n = 100, k = 0.01 s (1e-05 CPU s); to 1e-06 ..." */
 static void answer_scene(struct br_document *d, const struct br_trade *t)
 {
-    char trial[BR_TRIAL_TEXT];
+    char trial[TRIAL_TEXT];
     const char *between = "";
     br_put_answer(d, "%s:", t->request.scene->name);
     for (size_t i = 0; i < ANSWERED; i++) {
@@ -357,7 +394,7 @@ static void answer_scene(struct br_document *d, const struct br_trade *t)
         if (best == t->count)
             continue;
         br_put_more(d, "%s to %.0e %s (%.3g CPU s)", between, br_trade_target(answered[i]),
-                    br_trial_text(t->request.scene, &t->trial[best], trial),
+                    trial_text(t->request.scene, &t->trial[best], trial),
                     br_trial_seconds(&t->trial[best]));
         between = ";";
     }

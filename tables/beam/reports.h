@@ -61,4 +61,10 @@ void br_report_split(const struct br_split *split, size_t count,
 void br_report_floors(const struct br_floors *floors, struct br_document *d);
 void br_report_stability(const struct br_stability *stability, struct br_document *d);
 
+/* ---- scenes: the format ---- */
+
+/* Writes a valid scene with every key, its meaning, unit and default; those that are optional stand
+ * behind a #. It walks br_scene_keys and the registry of norms, and so cannot go stale. */
+void br_scene_template_write(FILE *out);
+
 #endif

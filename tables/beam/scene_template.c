@@ -4,7 +4,7 @@
 #include "solver/laws.h"
 #include "study/scene/schema.h"
 #include "study/verify/verify.h"
-#include "tables/beam/scene_format.h"
+#include "tables/beam/reports.h"
 
 enum { COLUMN = 46 }; /* where comments begin */
 

@@ -99,7 +99,7 @@ static double trade(const struct row *r, const struct br_scene *scene, double *t
     static struct br_trade t;
     t = (struct br_trade){.request = br_trial_request_default(scene)};
     t.request.threads = 1;
-    MUST(br_named_methods_read("--methods", r->method, &t.methods, &err));
+    MUST(br_named_methods_read(r->method, &t.methods, &err));
     MUST(br_trade_lay_out(&t,
                           &(struct br_trade_grid){.n = r->n,
                                                   .n_count = count_of(r->n),
