@@ -373,4 +373,10 @@ TEST(test_not_smooth)
         assert_false(br_function_taylor(&f, BR_T, box, 3, c));
         br_function_free(&f);
     }
+    static const struct br_function_ops none = {0};
+    const struct br_function unknown = {.ops = &none}, constant = {.constant = 3};
+    iv c[4];
+    assert_false(br_function_taylor(&unknown, BR_T, box, 3, c));
+    assert_true(br_function_taylor(&constant, BR_T, box, 3, c));
+    assert_true(c[0].low == 3 && c[0].high == 3 && c[1].low == 0 && c[3].high == 0);
 }

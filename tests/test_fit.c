@@ -96,6 +96,8 @@ TEST(test_recovers)
                                            steps[COLUMNS - 1] + steps[COLUMNS - 1] / 32};
             for (size_t c = 0; c < CELLS && reference == 2; c++)
                 g.cell[c].against = g.study.reference;
+            if (reference == 1) /* its error is measured */
+                g.study.reference_check = &br_reference_exact;
             fill(&truths[i], 0, 1);
             fit(BR_PART_TOTAL);
             const struct br_joint_fit *j = &fits.joint;
@@ -107,6 +109,7 @@ TEST(test_recovers)
             CLOSE(j->c[0].value / truths[i].c_h, 1, 1e-6);
             CLOSE(j->c[1].value / truths[i].c_k, 1, 1e-6);
             AT_MOST(j->worst, 1e-7);
+            CLOSE(j->r_squared, 1, 1e-12);
         }
 }
 

@@ -417,5 +417,6 @@ TEST(test_uncertain)
     assert_string_equal(br_digits_text(-453.048, 2, text, sizeof text), "-450");
     assert_string_equal(br_digits_text(-0.163812, 2, text, sizeof text), "-0.16");
     assert_string_equal(br_digits_text(1.90822e-7, 3, text, sizeof text), "1.91e-07");
+    assert_string_equal(br_digits_text(12345678, 3, text, sizeof text), "1.23e+07");
     assert_string_equal(br_digits_text(-0.0, 3, text, sizeof text), "0");
 }

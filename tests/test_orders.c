@@ -165,6 +165,8 @@ TEST(test_lists)
                 "'l2' is given as an error and as a value");
     refuse_with(text, &(struct columns){"h,l2", NULL, 2, NULL},
                 "t.csv: --error: 'h' is a resolution");
+    refuse_with(text, &(struct columns){NULL, NULL, 2, "\"\"=h,drag=aside"},
+                "--column: found '\"\"=h', expected COLUMN=NAME");
     assert_true(br_lists("a, b ,c d", "c d"));
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
@@ -427,6 +429,7 @@ static void read_kind(char *row)
         char found[2000];
         MUST(br_orders_read(&q, &n, &err));
         describe(&n, found);
+        assert_int_equal(n.assumed, strstr(found, " assumed") && strstr(found, "^(-1/d) from"));
         if (strncmp(found, expected, strlen(expected)) != 0)
             fail_msg("found '%s', expected '%s'", found, expected);
     }
@@ -463,6 +466,7 @@ TEST(test_degrees)
         free(text);
     }
     static const char *const powers[] = {
+        "p,e\n1,5\n2,.1\n3,.01\n4,.001\n5,1e-4\n6,1e-5\n7,1e-6\n",  /* the first is none */
         "p,e\n1,1\n2,.0625\n3,.0123\n4,.0039\n5,.0016\n6,.00077\n", /* p^-4 */
         "p,e\n1,6.25e-2\n2,1.2346e-2\n3,3.9063e-3\n4,1.6e-3\n5,7.716e-4\n6,4.1649e-4\n"
         "7,2.4414e-4\n8,1.5242e-4\n"}; /* (p + 1)^-4 */

@@ -1035,7 +1035,7 @@ TEST(test_no_foreign_handlers)
 TEST(test_changes)
 {
     static const char *const forms[] = {"%s {n}", "/bin/sh %s {n}",
-                                        "/usr/bin/env SCRIPT=%s sh -c '. $SCRIPT' x {n}"};
+                                        "/usr/bin/env A=1 B=2 SCRIPT=%s sh -c '. $SCRIPT' x {n}"};
     static const char *const ways[] = {"echo '#' >> %s", "cp -p %1$s new && mv new %1$s", "rm %s"};
     char command[256], cache[128], text[512], way[256];
     for (size_t i = 0; i < 9; i++) {

@@ -177,6 +177,7 @@ TEST(test_events)
     assert_int_equal(w.regime_steps[BR_TIP_SLIP], 4);
     CLOSE(w.friction_work, 0.1 * (5 + 5 + 5 + 2), 1e-14);
     CLOSE(w.friction_force.value, 5, 0);
+    CLOSE(w.friction_force.time, 0.2, 1e-15); /* the first of the largest */
 }
 
 /* ---- the history ---- */
@@ -342,5 +343,8 @@ TEST(test_model)
     assert_non_null(
         strstr(find(&p, "axial_load")->why, "one evaluation of its history in each step"));
     assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
+    request.wanted = BR_WANT_BENDING;
+    MUST(br_run(&request, &p, &err));
+    assert_string_equal(find(&p, "axial")->why, "not asked for by --fields");
     br_scene_clear(&scene);
 }

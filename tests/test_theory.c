@@ -261,6 +261,23 @@ static double rate_in_k(const struct br_scene *scene, struct br_theory *theory)
     return rate;
 }
 
+/* A load may break between the elements of the coarsest mesh, not inside one. */
+TEST(test_breaks_between_elements)
+{
+    static const size_t n[] = {4, 8}, steps[] = {10};
+    static const char *const loads[] = {"step(x - 0.25)", "step(x - 0.3)"};
+    for (int inside = 0; inside < 2; inside++) {
+        struct br_scene scene = br_test_bare();
+        scene.bending.modelled = false;
+        scene.axial.load = br_test_load(loads[inside]);
+        struct br_study s = br_test_study(&scene, &br_reference_fine, 2, n, 1, steps);
+        const struct br_theory t = br_theory_of(&s, BR_PART_TOTAL, BR_AXIS_SPACE);
+        assert_true(inside ? isnan(t.order) : t.order == 2);
+        br_study_clear(&s);
+        br_scene_clear(&scene);
+    }
+}
+
 /* A force that starts gently keeps the order 2 of velocities; one that starts suddenly, or with a
  * rate, or has a kink later, may cost it, wherever it is, and theory states none. */
 TEST(test_sudden_forces)

@@ -518,6 +518,7 @@ static struct br_certificate worst_of(const struct br_method *method,
         MUST(br_march_step(w.march, &err));
         const struct br_certificate c = br_step_checker_step(w.checker);
         br_certificate_merge(&worst, &c);
+        assert_true(isnan(br_step_checker_step(w.checker).update)); /* no step since */
     }
     finish(&w);
     return worst;

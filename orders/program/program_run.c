@@ -110,10 +110,10 @@ static enum end end_of(const struct program_run *r, double wall)
     return prints_too_much(r) ? TOO_MUCH : wall > r->request->seconds ? TOO_LONG : BY_ITSELF;
 }
 
-/* Waits for the end, or brings it. What cannot be killed is left after a while. */
-static void watch(struct program_run *r)
+/* Waits for the end, or brings it. What cannot be killed is left after a while. begun: s, before
+ * the start, behind which this program may wait for a processor. */
+static void watch(struct program_run *r, double begun)
 {
-    const double begun = br_seconds();
     double asked = INFINITY; /* when it was asked to end, s */
     bool ours = true;
     while (!br_process_has_ended(&r->process) &&
@@ -313,9 +313,10 @@ enum br_status br_run_command(const struct br_orders_request *request,
     if (failure)
         return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", br_temporary(),
                        strerror(failure));
+    const double begun = br_seconds();
     enum br_status status = start(&r, err);
     if (!status) {
-        watch(&r);
+        watch(&r, begun);
         status = finish(&r, row, err);
     }
     clean(&r);

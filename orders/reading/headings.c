@@ -207,15 +207,15 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
         equals--;
     const size_t rest = length - (size_t)(equals - item);
     const bool in_quotes = quoted && quoted == equals;
-    item = in_quotes ? inside : item;
-    const size_t size = (size_t)(equals - item) - in_quotes;
+    const char *heading = in_quotes ? inside : item;
+    const size_t size = (size_t)(equals - heading) - in_quotes;
     if (!size || rest < 2)
         return br_fail(err, BR_BAD_INPUT,
                        "--column: found '%.*s', expected COLUMN=NAME, as in dx=h or 1=h",
                        (int)length, item);
-    const size_t found = br_roles_find_column(r, item, size);
+    const size_t found = br_roles_find_column(r, heading, size);
     if (found == BR_NO_ROW)
-        return br_roles_refuse_column(r, "--column", item, size, err);
+        return br_roles_refuse_column(r, "--column", heading, size, err);
     struct br_role_column *c = &r->column[found];
     char *name = br_store_take(&r->store, rest, 1);
     if (!name)
@@ -228,7 +228,7 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
         char *position = br_store_take(&r->store, size + 1, 1);
         if (!position)
             return br_no_memory(err, "the table");
-        memcpy(position, item, size);
+        memcpy(position, heading, size);
         c->name = c->name ? c->name : position;
     } else if (strcmp(name, "aside") == 0)
         c->why = "--column says so";
