@@ -85,6 +85,7 @@ TEST(test_data)
     const double x = 0.7, t = 0.6, g = t * t + t, g_t = 2 * t + 1, tip = 2;
     assert_string_equal(s.axial.solution, "x^2*(t^2 + t)");
     assert_false(s.axial.load.term[0].space.uses_t); /* products, assembled once */
+    assert_false(s.bending.load.term[0].space.uses_t);
     CLOSE(br_load_value(&s.axial.load, x, t), 3 * x * x * 2 - 2 * (5 * g + 7 * g_t), 1e-12);
     CLOSE(br_load_value(&s.bending.load, x, t), 3 * pow(x, 4) * 2 + 24 * (11 * g + 13 * g_t),
           1e-11);

@@ -388,11 +388,11 @@ TEST(test_nesting)
     const size_t good = 4;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        /* one bad study of two fails the call, and nothing is left of the other */
-        struct br_study s[2] = {study_of(&scene, (struct br_resolution){8, 8}, 1, &good, 1, &good),
-                                study_of(&scene, (struct br_resolution){60, rows[i].reference},
-                                         rows[i].n_count, &rows[i].n, rows[i].k_count,
-                                         &rows[i].steps)};
+        /* one bad study of two fails the call, and nothing is left of the other, before or after */
+        struct br_study s[2];
+        s[i % 2] = study_of(&scene, (struct br_resolution){8, 8}, 1, &good, 1, &good);
+        s[1 - i % 2] = study_of(&scene, (struct br_resolution){60, rows[i].reference},
+                                rows[i].n_count, &rows[i].n, rows[i].k_count, &rows[i].steps);
         REFUSED(br_study_run(s, 2, 1, NULL, &err), BR_BAD_INPUT, rows[i].text);
         assert_true(s[0].cell == NULL && s[1].cell == NULL);
     }

@@ -130,7 +130,7 @@ TEST(test_planted)
     static const struct {
         double first, others;
         bool wrong;
-    } rows[] = {{1, 1, false}, {10, 1, true}, {0.1, 0.1, true}, {1, NAN, false}};
+    } rows[] = {{1, 1, false}, {10, 1, true}, {2, 1, true}, {0.1, 0.1, true}, {1, NAN, false}};
     const struct br_study *s = &((const struct made *)*fixture)->study;
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
         double printed[CELLS];
