@@ -234,6 +234,7 @@ static const struct {
     {"step(sin(1/(t + 0.05)))", 6, {0.0000, 0}},
     {"step(abs(t - 0.5) - 0.25)", 3, {0.25, 0.5, 0.75}},
     {"(t > 0.5)*x", 1, {0.5}},
+    {"step(t^3 - t^2 + t - 0.2)", 1, {0.24546216933726323}}, /* none where only bounds reach 0 */
 };
 
 TEST(test_breaks)
