@@ -866,7 +866,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(f->c[BR_AXIS_SPACE].value), br_number(f->c[BR_AXIS_TIME].value)",
      "br_number(f->c[BR_AXIS_TIME].value), br_number(f->c[BR_AXIS_SPACE].value)"},
     {"searches_do_not_stop", "lost", "orders/program/program_reading.c",
-     "tests/test_program test_long_searches", "if (br_observer_check(s->request->observer, s->err))",
+     "tests/test_program_reading test_long_searches", "if (br_observer_check(s->request->observer, s->err))",
      "if (!s)"},
     {"everything_is_trusted", "option", "cli/verdicts.c", "golden orders_run",
      "!br_option_given(options, BR_OPT_TRUST) && r->command)", "!r->command && r->command)"},
