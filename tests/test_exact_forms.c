@@ -56,6 +56,7 @@ static void check_vibration(struct br_scene *scene, struct br_exact_quantity par
     struct solved s = solve(scene, 1e-10);
     const struct br_exact_report r = br_exact_report(s.exact, part.field);
     const struct br_exact_size *l = &r.largest, *e = &r.error;
+    AT_MOST(e->displacement, 1e-10 * l->displacement); /* as solve() asks */
     const struct expected expected[] = {
         {PART, part, text_of("%s*%s", shape, q.s),
          fmin(1e-10 * l->displacement, 3 * e->displacement + 1e-13 * l->displacement)},
