@@ -282,23 +282,38 @@ static bool is_sequence(const struct layout *l)
     return columns > 1;
 }
 
+static bool read_size(const struct layout *l, size_t line, size_t column, double *value)
+{
+    char text[64];
+    struct br_field_number number = {0};
+    const bool is_there = column < l->row[line].count;
+    snprintf(text, sizeof text, "%s", is_there ? l->row[line].token[column].text : "");
+    const size_t length = strlen(text);
+    text[length - (length && text[length - 1] == ':')] = '\0'; /* "128: out of memory" */
+    const bool reads = br_field_read(text, l->fields->mark, &number);
+    *value = number.value;
+    return reads;
+}
+
 /* Whether a line that is no row has a size that the rows do not have, as where a run failed: the
- * first name of pairs again, or behind the rows the next number of the first column. */
+ * first name of pairs again, or behind the rows the next number of their first column of numbers.
+ */
 static bool is_failed_run(const struct layout *l, size_t line)
 {
-    const char mark = l->fields->mark;
-    const struct br_token *const size = l->row[line].token, *const name = l->row[l->first].token;
-    struct br_field_number first, last, next;
-    if (!l->row[line].count || !name->text || !br_field_read(size->text, mark, &next))
+    const struct row *r = &l->row[line];
+    const bool pairs = l->by <= BR_BY_COLONS;
+    size_t column = 0;
+    double first, last, next, row;
+    while (!pairs && column + 1 < l->width && l->has_number[column] < l->rows)
+        column++;
+    if (!read_size(l, line, column, &next) || is_summary(r) ||
+        (pairs && strcmp(r->token->name, l->row[l->first].token->name) != 0))
         return false;
-    bool is_new = l->by > BR_BY_COLONS || strcmp(size->name, name->name) == 0;
-    for (size_t i = l->first; i <= l->last && is_new; i++)
-        is_new = !l->row[i].is_row || strcmp(l->row[i].token->text, size->text) != 0;
-    if (l->by <= BR_BY_COLONS || !is_new)
-        return is_new;
-    return line > l->last && br_field_read(name->text, mark, &first) &&
-           br_field_read(l->row[l->last].token->text, mark, &last) &&
-           (last.value - first.value) * (next.value - last.value) > 0;
+    for (size_t i = l->first; i <= l->last; i++)
+        if (l->row[i].is_row && read_size(l, i, column, &row) && row == next)
+            return false;
+    return pairs || (line > l->last && read_size(l, l->first, column, &first) &&
+                     read_size(l, l->last, column, &last) && (last - first) * (next - last) > 0);
 }
 
 /* Refuses what is no row between rows, but text in a sequence, and rows beside them that are
