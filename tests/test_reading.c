@@ -198,6 +198,7 @@ static const struct {
     {"m N e\nA 8 0.1\nB 16 0.02\nC 32: no memory left\n",
      ":t:4: found 'C 32: no memory left', expected a row of 3 fields"},
     {"m N e\nA 8 0.1\nB 16 0.02\nTotal 32 s used\n", "m|N|e|\nA|8|0.1|\nB|16|0.02|\n4 footer\n"},
+    {"h e\n.2 0.1\n.1 0.02\n0 errors were found\n", "h|e|\n.2|0.1|\n.1|0.02|\n4 footer\n"},
     {"N e\n8 0.1\n16 0.02\n4 tests passed\n", "N|e|\n8|0.1|\n16|0.02|\n4 footer\n"},
     {"h,1/2,1/4,1/8\nL2,3,2,1\nrate,,1,1\n", "h|L2|rate|\n1/2|3||\n1/4|2|1|\n1/8|1|1|\n"},
     {"a,1/2,1/4,1/8\nL2,3,2,1\n", "~|~|~|~|\na|1/2|1/4|1/8|\nL2|3|2|1|\n"},

@@ -306,7 +306,7 @@ static bool is_failed_run(const struct layout *l, size_t line)
     double first, last, next, row;
     while (!pairs && column + 1 < l->width && l->has_number[column] < l->rows)
         column++;
-    if (!read_size(l, line, column, &next) || is_summary(r) ||
+    if (!read_size(l, line, column, &next) || !(next > 0) || is_summary(r) ||
         (pairs && strcmp(r->token->name, l->row[l->first].token->name) != 0))
         return false;
     for (size_t i = l->first; i <= l->last; i++)
