@@ -199,6 +199,8 @@ static const struct {
      ":t:4: found 'C 32: no memory left', expected a row of 3 fields"},
     {"m N e\nA 8 0.1\nB 16 0.02\nTotal 32 s used\n", "m|N|e|\nA|8|0.1|\nB|16|0.02|\n4 footer\n"},
     {"h e\n.2 0.1\n.1 0.02\n0 errors were found\n", "h|e|\n.2|0.1|\n.1|0.02|\n4 footer\n"},
+    {"N=8 e=1 f=2\nN=16 e=.2 f=.5\nN=32 e=.1\n", ":t:3: found 'N=32 e=.1', expected a row of 3"},
+    {"N e f\n8 1 2\n16 .2 .5\n32 .1 .2 more\n", ":t:4: found '32 .1 .2 more', expected a row of 3"},
     {"N e\n8 0.1\n16 0.02\n4 tests passed\n", "N|e|\n8|0.1|\n16|0.02|\n4 footer\n"},
     {"h,1/2,1/4,1/8\nL2,3,2,1\nrate,,1,1\n", "h|L2|rate|\n1/2|3||\n1/4|2|1|\n1/8|1|1|\n"},
     {"a,1/2,1/4,1/8\nL2,3,2,1\n", "~|~|~|~|\na|1/2|1/4|1/8|\nL2|3|2|1|\n"},

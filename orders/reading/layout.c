@@ -329,15 +329,15 @@ static enum br_status check_one_table(const struct layout *l)
             before = is_taken(l, i) ? i : before;
             continue;
         }
-        if (is_failed_run(l, i) && !(r->numbers > 1 && r->numbers > r->words))
-            return br_fail(l->err, BR_BAD_INPUT,
-                           "%s:%zu: found '%.40s', expected a row of %zu fields: write nan for a "
-                           "number that is missing, or # before a line that is no row",
-                           l->path, l->line[i].number, l->line[i].text, l->width);
         const bool is_data =
             (r->numbers > 1 || i > l->last) && r->numbers > r->words && l->by > BR_BY_COLONS;
         if (r->count != l->width && is_data && !(r->words && !inside))
             return refuse_row(l, i, l->fields->heading_line ? "heading" : "first row");
+        if (is_failed_run(l, i))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found '%.40s', expected a row of %zu fields: write nan for a "
+                           "number that is missing, or # before a line that is no row",
+                           l->path, l->line[i].number, l->line[i].text, l->width);
         others += is_data;
         if ((inside && !(sequence && r->numbers <= r->words)) || others > 1)
             return br_fail(l->err, BR_BAD_INPUT,
