@@ -533,7 +533,7 @@ static const struct planted_bug planted_bugs[] = {
     {"pairs_lose_a_number", "lost", "orders/reading/lines.c", "tests/test_reading",
      "return !add_label(s, at, at + strlen(at));", "return at;"},
     {"label_is_lost", "lost", "orders/reading/lines.c", "tests/test_reading",
-     "add_token(s, last, last_end - (last_end[-1] == ':'), copy_name(s, at, last));",
+     "add_token(s, last, end_of_word(last, last_end), copy_name(s, at, last));",
      "(void)last_end;"},
     {"other_rows_are_one", "lost", "orders/reading/json.c", "tests/test_reading",
      "!json_equal(json_array_get(column, row), value)", "!value"},

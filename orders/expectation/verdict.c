@@ -274,11 +274,11 @@ static const struct br_point *finest_used(const struct br_case *c)
 }
 
 /* Whether an error is zero where the order shows one above the digits: the reference is the
- * solution itself, or terms cancel. */
+ * solution itself, or terms cancel. Values that are the same may have no more digits. */
 static bool vanishes(const struct br_case *c, const struct br_point *p)
 {
     const struct br_point *last = finest_used(c);
-    return p->error == 0 &&
+    return p->error == 0 && p->z_against == 0 &&
            last->error * pow(p->z / last->z, c->order.value) > fmax(p->rounding, last->rounding);
 }
 
