@@ -201,6 +201,16 @@ TEST(test_far_too_small)
     make_power(&m, 1, 7);
     m.point[6].error *= 0.8;
     reach(&m, BR_INCONCLUSIVE, "from (n = 640, k = T/6400) on the errors are smaller than that");
+    make_power(&m, 1, 7);
+    m.point[6].error = 0;
+    m.point[6].flag = BR_FLAG_ROUND_OFF; /* as zeros are */
+    reach(&m, BR_INCONCLUSIVE,
+          "from (n = 640, k = T/6400) on the errors are far smaller than that, 0.00e+00");
+    m.it.expected.down_to = 1e-300;
+    reach(&m, BR_PASS, "");
+    m.it.expected.down_to = 0;
+    m.point[6].rounding = 0.51 * m.point[5].error; /* what is below it is printed as zero */
+    reach(&m, BR_PASS, "");
 }
 
 /* Takes the numbers out of a text. */

@@ -265,16 +265,32 @@ static void decide_too_few(struct br_case *c)
                        : "use coarser grids, whose errors are above the limits");
 }
 
+static const struct br_point *finest_used(const struct br_case *c)
+{
+    const struct br_point *last = c->point + c->points - 1;
+    while (last > c->point && !last->used)
+        last--;
+    return last;
+}
+
+/* Whether an error is zero where the order shows one above the digits: the reference is the
+ * solution itself, or terms cancel. Values that are the same may have no more digits. */
+static bool vanishes(const struct br_case *c, const struct br_point *p)
+{
+    const struct br_point *last = finest_used(c);
+    return p->error == 0 && p->z_against == 0 &&
+           last->error * pow(p->z / last->z, c->order.value) > fmax(p->rounding, last->rounding);
+}
+
 /* The first error at the fine end that the search for the order left out. It shows another
  * solution, round-off, the error of a reference or tolerance, or terms that cancel: without it the
  * order of the coarse errors proves nothing, unless such errors are expected (`down to`). */
 static const struct br_point *first_beyond(const struct br_case *c)
 {
-    const struct br_point *first = NULL, *last = c->point + c->points - 1;
-    while (last > c->point && !last->used)
-        last--;
+    const struct br_point *first = NULL, *last = finest_used(c);
     for (const struct br_point *p = c->point + c->points; p-- > last + 1;)
-        if (p->lost && !(p->error <= c->expected.down_to))
+        if (vanishes(c, p) ? !(c->expected.down_to > 0)
+                           : p->lost && !(p->error <= c->expected.down_to))
             first = p;
     return first;
 }
@@ -373,8 +389,9 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
 static void name_row(struct br_case *c)
 {
     const struct br_point *last = &c->point[c->points - 1];
-    const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE ||
-                      last->error <= c->expected.down_to;
+    const bool lost =
+        !vanishes(c, last) && (last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE ||
+                               last->error <= c->expected.down_to);
     if (c->window && !trend_of(c).stays)
         br_append(c->reason, sizeof c->reason, "; leave out fewer rows");
     else if (c->may_miss && !c->open && !trend_of(c).stays)

@@ -38,6 +38,12 @@ static double structure_of(const struct br_joint_cells *cells, const double *res
  * not scatter. */
 static const double waves = 0.7, exact = 1e-4;
 
+/* How many times as wide as that of 95 % the interval of 99 % is. */
+static double as_99(double freedom)
+{
+    return gsl_cdf_tdist_Pinv(0.995, freedom) / gsl_cdf_tdist_Pinv(0.975, freedom);
+}
+
 /* Cells that share h or k are not independent: the residuals are deterministic. So the intervals
  * come from leaving out one whole line of the grid after the other (delete-a-group jackknife, Efron
  * 1982), where they are wider. */
@@ -77,8 +83,13 @@ static void widen_along(struct br_joint_search *s, struct br_joint_candidate *c,
     for (size_t i = 0; i < unknowns; i++) {
         const double spread = squares[i] - sum[i] * sum[i] / groups;
         const double deviation = sqrt((groups - 1) / groups * fmax(0, spread)) * quantiles;
-        if (!(deviation <= c->deviation[unknown[i]])) /* NaN: a refit failed */
-            c->deviation[unknown[i]] = isfinite(spread) ? deviation : INFINITY;
+        if (deviation <= c->deviation[unknown[i]])
+            continue;
+        c->deviation[unknown[i]] =
+            isfinite(spread) ? deviation : INFINITY; /* NaN: a refit failed */
+        for (int a = 0; a < BR_AXES; a++)            /* its freedom is that of the groups */
+            if (unknown[i] == BR_OF(a, BR_ORDER))
+                c->tails[a] = as_99(groups - 1) / as_99(c->trial.freedom);
     }
 }
 
@@ -131,8 +142,6 @@ static void describe(struct br_joint_search *s, const struct br_joint_candidate 
     static const double most_scatter = 0.3, most_structure = 1;
     static const double round_off = 1e-24; /* a mean square below this */
     const struct br_joint_trial *t = &c->trial;
-    const double as_99 =
-        gsl_cdf_tdist_Pinv(0.995, t->freedom) / gsl_cdf_tdist_Pinv(0.975, t->freedom);
     double mean = 0, total = 0, value[BR_UNKNOWNS];
     br_joint_in_units(s, t, value);
     br_joint_look_at(s, c->window);
@@ -154,7 +163,7 @@ static void describe(struct br_joint_search *s, const struct br_joint_candidate 
         if (t->law.of[a]) /* its deviation is that of the error at the coarsest size */
             fit->c[a].low = fit->c[a].high = NAN;
         e = fit->order[a] = estimate(c, has, value[BR_OF(a, BR_ORDER)], BR_OF(a, BR_ORDER));
-        const double half = as_99 * (e.high - e.value);
+        const double half = as_99(t->freedom) * c->tails[a] * (e.high - e.value);
         fit->low99[a] = e.value - half;
         fit->high99[a] = e.value + half;
         fit->share[a] = br_joint_share(&s->used, a);
@@ -212,10 +221,12 @@ static void take_one(struct br_joint_search *s, struct br_joint_fit *fit)
     }
 }
 
-/* The probability that the order of an axis is below this one, by one model. */
-static double below(const struct br_joint_candidate *c, int axis, double order)
+/* The probability that the order of an axis is below this one, by one model; tails: that far out.
+ */
+static double below(const struct br_joint_candidate *c, int axis, double order, bool tails)
 {
-    const double scale = hypot(c->deviation[BR_OF(axis, BR_ORDER)], c->trial.open[axis]),
+    const double scale = hypot(c->deviation[BR_OF(axis, BR_ORDER)], c->trial.open[axis]) *
+                         (tails ? c->tails[axis] : 1),
                  off = order - c->trial.value[BR_OF(axis, BR_ORDER)],
                  coarse =
                      br_joint_changes_along(&c->trial.law, axis) ? c->trial.law.of[axis]->s : 0;
@@ -234,12 +245,13 @@ static double below(const struct br_joint_candidate *c, int axis, double order)
 static double quantile(const struct br_joint_search *s, int axis, double all, double share)
 {
     double low = -60, high = 60;
+    const bool tails = fabs(share - 0.5) > 0.49; /* beyond 95 % */
     while (high - low > 1e-9) {
         const double at = (low + high) / 2;
         double sum = 0;
         for (size_t i = 0; i < s->count; i++)
             if (br_joint_has(s->candidate[i].trial.law.kind, axis))
-                sum += s->candidate[i].log_weight * below(&s->candidate[i], axis, at);
+                sum += s->candidate[i].log_weight * below(&s->candidate[i], axis, at, tails);
         *(sum < share * all ? &low : &high) = at;
     }
     return (low + high) / 2;

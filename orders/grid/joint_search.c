@@ -217,7 +217,7 @@ static void add_candidate(struct br_joint_search *s, const struct br_joint_law *
     if (s->count == BR_JOINT_TRIALS || !enough(s, law))
         return;
     *c = (struct br_joint_candidate){
-        .trial = {.sum = INFINITY}, .window = s->now, .log_weight = -INFINITY};
+        .trial = {.sum = INFINITY}, .tails = {1, 1}, .window = s->now, .log_weight = -INFINITY};
     for (size_t i = 0; i < starts; i++) {
         struct br_joint_trial t = {.law = *law, .sum = INFINITY};
         memcpy(t.value, start[i], sizeof t.value);

@@ -12,7 +12,8 @@ struct br_joint_candidate {
     struct br_joint_trial trial;
     double log_weight;             /* of the mixture, then the weight; -infinite: there is no fit */
     double deviation[BR_UNKNOWNS]; /* of values in m and s */
-    size_t window, laws;           /* laws: how many bend a power, or are a floor */
+    double tails[BR_AXES]; /* times as wide as its freedom says is the 99 % interval of an order */
+    size_t window, laws;   /* laws: how many bend a power, or are a floor */
     bool widened;
 };
 
