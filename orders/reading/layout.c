@@ -4,6 +4,7 @@
  * is taken. The rows are the lines of this width whose numbers stand in the columns of numbers. The
  * heading is the line above them, or the comment there. All else is named in fields->left, or
  * refused: what stands between rows, or has numbers that are no row, may be a second table. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -707,24 +708,56 @@ static enum br_status take_fields(struct layout *l)
     return check_marks(l) || trim_columns(l) ? l->err->status : BR_OK;
 }
 
-/* Turns a table whose rows are the sizes and the errors: "h,1/2,1/4,1/8", with the name of a size
- * among its names, and numbers behind them. */
-static enum br_status turn(const struct layout *l)
+/* Whether the numbers of a row behind its name rise or fall; *halve (out): by a factor of two. */
+static bool is_monotone(const struct br_fields *f, const char *const *field, bool *halve)
 {
-    struct br_fields *f = l->fields;
-    const size_t rows = f->columns ? f->columns - 1 : 0, columns = f->rows;
-    bool has_size = false;
-    for (size_t i = 0; i < columns; i++) {
+    bool rise = true, fall = true;
+    double last = NAN;
+    *halve = true;
+    for (size_t j = 1; j < f->columns; j++) {
+        struct br_field_number number;
+        if (!field[j] || !br_field_read(field[j], f->mark, &number))
+            return false;
+        rise &= !(number.value <= last);
+        fall &= !(number.value >= last);
+        *halve &= j == 1 || number.value == 2 * last || last == 2 * number.value;
+        last = number.value;
+    }
+    return rise || fall;
+}
+
+/* Whether the rows are the sizes and the errors: "h,1/2,1/4,1/8", numbers behind names. "h" may
+ * also be a method, beside "p" and "hp", or a case of several rows: so another row is called an
+ * error, or the first one has sizes that halve. */
+static bool is_turned(const struct br_fields *f)
+{
+    bool has_size = false, has_error = false, halves = false;
+    for (size_t i = 0; i < f->rows; i++) {
         const char *const *field = &f->field[i * f->columns];
-        for (size_t j = 0; j < f->columns; j++) {
-            struct br_field_number number;
+        struct br_field_number number;
+        bool halve = false;
+        for (size_t j = 0; j < f->columns; j++)
             if ((j == 0) != (field[j] && !br_field_is_missing(field[j]) &&
                              !br_field_read(field[j], f->mark, &number)))
-                return BR_OK;
-        }
-        has_size |= br_size_name_odds(field[0]) > BR_ANY_NAME;
+                return false;
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(f->field[k * f->columns], field[0]) == 0)
+                return false;
+        const bool is_size =
+            br_size_name_odds(field[0]) > BR_ANY_NAME && is_monotone(f, field, &halve);
+        has_size |= is_size;
+        has_error |= br_kind_of(field[0]) == BR_KIND_ERROR;
+        halves |= i == 0 && is_size && halve;
     }
-    if (f->heading_line || !has_size || rows < 2 || columns > BR_MOST_COLUMNS)
+    return has_size && (has_error || halves);
+}
+
+static enum br_status turn(const struct layout *l)
+{
+    enum { LEAST_SIZES = 3 };
+    struct br_fields *f = l->fields;
+    const size_t rows = f->columns ? f->columns - 1 : 0, columns = f->rows;
+    if (f->heading_line || rows < LEAST_SIZES || columns > BR_MOST_COLUMNS || !is_turned(f))
         return BR_OK;
     const char **turned = br_store_take(&f->store, rows * columns, sizeof *turned);
     size_t *line = br_store_take(&f->store, rows, sizeof *line);
