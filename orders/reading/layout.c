@@ -708,22 +708,18 @@ static enum br_status take_fields(struct layout *l)
     return check_marks(l) || trim_columns(l) ? l->err->status : BR_OK;
 }
 
-/* Whether the numbers of a row behind its name rise or fall; *halve (out): by a factor of two. */
-static bool is_monotone(const struct br_fields *f, const char *const *field, bool *halve)
+/* Whether numbers behind a name halve, or double. */
+static bool halves(const struct br_fields *f, const char *const *field)
 {
-    bool rise = true, fall = true;
     double last = NAN;
-    *halve = true;
     for (size_t j = 1; j < f->columns; j++) {
         struct br_field_number number;
-        if (!field[j] || !br_field_read(field[j], f->mark, &number))
+        if (!field[j] || !br_field_read(field[j], f->mark, &number) ||
+            (j > 1 && !(number.value == 2 * last || last == 2 * number.value)))
             return false;
-        rise &= !(number.value <= last);
-        fall &= !(number.value >= last);
-        *halve &= j == 1 || number.value == 2 * last || last == 2 * number.value;
         last = number.value;
     }
-    return rise || fall;
+    return true;
 }
 
 /* Whether the rows are the sizes and the errors: "h,1/2,1/4,1/8", numbers behind names. "h" may
@@ -731,25 +727,23 @@ static bool is_monotone(const struct br_fields *f, const char *const *field, boo
  * error, or the first one has sizes that halve. */
 static bool is_turned(const struct br_fields *f)
 {
-    bool has_size = false, has_error = false, halves = false;
+    bool has_size = false, has_error = false;
     for (size_t i = 0; i < f->rows; i++) {
         const char *const *field = &f->field[i * f->columns];
         struct br_field_number number;
-        bool halve = false;
         for (size_t j = 0; j < f->columns; j++)
             if ((j == 0) != (field[j] && !br_field_is_missing(field[j]) &&
                              !br_field_read(field[j], f->mark, &number)))
                 return false;
-        for (size_t k = 0; k < i; k++)
+        const bool is_size = br_size_name_odds(field[0]) > BR_ANY_NAME;
+        for (size_t k = 0; k < i && is_size; k++)
             if (strcmp(f->field[k * f->columns], field[0]) == 0)
                 return false;
-        const bool is_size =
-            br_size_name_odds(field[0]) > BR_ANY_NAME && is_monotone(f, field, &halve);
         has_size |= is_size;
         has_error |= br_kind_of(field[0]) == BR_KIND_ERROR;
-        halves |= i == 0 && is_size && halve;
     }
-    return has_size && (has_error || halves);
+    return has_size &&
+           (has_error || (br_size_name_odds(f->field[0]) > BR_ANY_NAME && halves(f, f->field)));
 }
 
 static enum br_status turn(const struct layout *l)
