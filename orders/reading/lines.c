@@ -419,6 +419,24 @@ static const char *copy_name(struct splitter *s, const char *at, const char *end
     return is_symbol ? last + 1 : name;
 }
 
+/* The name with the unit that ends the clause of a number, as a heading has it: lines with other
+ * units have other names. *at: behind the number, then behind the unit. */
+static const char *add_unit(struct splitter *s, const char *name, const char **at)
+{
+    char unit[16];
+    const char *const word = *at + strspn(*at, " \t");
+    const size_t length = strcspn(word, " \t,;:");
+    snprintf(unit, sizeof unit, "%.*s", length < sizeof unit ? (int)length : 0, word);
+    if (word == *at || !br_is_unit(unit) ||
+        (is_blank(word[length]) && !is_blank(word[length + 1])) ||
+        (word[length] == ':' && s->by == BR_BY_COLONS))
+        return name;
+    *at = word + length;
+    const char *const whole = s->room;
+    s->room += sprintf(s->room, "%s [%s]", name, unit) + 1;
+    return whole;
+}
+
 /* Whether the number before `at` has an exponent behind a blank: "2.3 e-2". */
 static bool has_exponent_behind(const char *at)
 {
@@ -456,7 +474,8 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
         while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
-        add_token(s, value, at - (at > value && at[-1] == ':'), copy_name(s, name, equals));
+        const char *const end = at - (at > value && at[-1] == ':');
+        add_token(s, value, end, add_unit(s, copy_name(s, name, equals), &at));
         if (strspn(name, " +-.0123456789") >= (size_t)(equals - name) || has_exponent_behind(at))
             return false; /* a time, as 12:30 */
     }
@@ -470,10 +489,12 @@ static bool split_sentence(struct splitter *s, const char *at)
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0;
     const char *behind = at;
     for (const char *next; (next = next_number(s, behind, end, &behind)); at = behind) {
-        const char *const name = copy_name(s, begin_of_name(at, next), next);
+        const char *name = copy_name(s, begin_of_name(at, next), next);
         if (!*name || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
             return false;
-        add_token(s, next, behind - (behind[-1] == ':'), name);
+        const char *const last = behind - (behind[-1] == ':');
+        name = add_unit(s, name, &behind);
+        add_token(s, next, last, name);
     }
     return s->count > 1;
 }
