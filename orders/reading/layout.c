@@ -274,6 +274,30 @@ static bool is_sequence(const struct layout *l)
     return columns > 1;
 }
 
+/* Refuses a line next to the last row (step: 1) or the first one (-1) that begins with the size
+ * that comes next: "128 did not converge" is the finest row, and no footer. */
+static enum br_status check_next(const struct layout *l, size_t end, int step)
+{
+    const size_t line = next_text(l, end, step), of[] = {next_text(l, end, -step), end, line};
+    double number[3];
+    for (int i = 0; i < 3; i++) {
+        struct br_field_number found;
+        const struct br_token *token = of[i] < l->lines ? l->row[of[i]].token : NULL;
+        const char *const name = l->row[end].token->name;
+        if (!token || !l->row[of[i]].count ||
+            !br_field_read(token->text, l->fields->mark, &found) ||
+            (name && strcmp(name, token->name) != 0) || is_taken(l, of[i]) != (i < 2))
+            return BR_OK;
+        number[i] = found.value;
+    }
+    return (number[1] - number[0]) * (number[2] - number[1]) > 0
+               ? br_fail(l->err, BR_BAD_INPUT,
+                         "%s:%zu: found '%.40s', expected a row as line %zu, with nan for a number "
+                         "that is missing",
+                         l->path, l->line[line].number, l->line[line].text, l->line[end].number)
+               : BR_OK;
+}
+
 /* Refuses what is no row between rows, but text in a sequence, and rows beside them that are
  * others. */
 static enum br_status check_one_table(const struct layout *l)
@@ -299,7 +323,7 @@ static enum br_status check_one_table(const struct layout *l)
                            l->path, l->line[i].number, l->line[i].text, l->line[l->first].number,
                            l->line[inside ? before : l->last].number);
     }
-    return BR_OK;
+    return check_next(l, l->first, -1) ? l->err->status : check_next(l, l->last, 1);
 }
 
 static bool is_rate(const char *name)
