@@ -193,7 +193,7 @@ static const struct {
     {"n e\n8 1\n16 .2\n32 did not end\n", ":t:4: found '32 did not end', expected a row as line 3"},
     {"32 failed\n16 .2\n8 1\n", ":t:1: found '32 failed', expected a row as line 2"},
     {"n=8 e=1\nn=16 e=.2\nn=32\n", ":t:3: found 'n=32', expected a row as line 2"},
-    {"n e\n8 1\n16 .2\n2 of 2 done\n", "n|e|\n8|1|\n16|.2|\n4 footer"},
+    {"n e\n8 1\n16 .2\n2 of 2 done\n", "n|e|\n8|1|\n16|.2|\n4 footer\n"},
     {"See 4 for h=1: 5\nSo 2 of h=3: 7\n", ":t:2: found 'So=2', expected 'See = ...'"},
     {"[a] 2024-03-01 12:00:01 step size 0.1 error 3\n[b] 2024-03-01 12:00:02 step size 0.05 error 1",
      "step size|error|\n0.1|3|\n0.05|1|\n"},
