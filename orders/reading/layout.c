@@ -37,6 +37,7 @@ struct layout {
     size_t first, last;            /* rows, as lines */
     struct br_token token[WIDEST]; /* of the last line that was split */
     long gain[WIDEST];             /* by width: how well it explains the lines */
+    size_t like[WIDEST];           /* by width: lines with a number */
     size_t names[WIDEST];          /* by width: lines without a number */
     bool skipped[WIDEST];          /* by column: the heading has no name of it */
     size_t has_number[WIDEST];     /* by column: the rows that have one there, or a missing one */
@@ -65,6 +66,7 @@ static long measure(struct layout *l)
 {
     memset(l->gain, 0, sizeof l->gain);
     memset(l->names, 0, sizeof l->names);
+    memset(l->like, 0, sizeof l->like);
     l->width = 0;
     for (size_t i = 0; i < l->lines; i++) {
         if (i == SAMPLE && l->lines > 2 * SAMPLE)
@@ -72,13 +74,15 @@ static long measure(struct layout *l)
         if (l->line[i].kind != BR_LINE_TEXT)
             continue;
         const struct row r = look_at(l, i, l->room);
-        const long more = r.numbers ? 3 * (long)r.numbers - (long)r.words : 0;
+        const bool is_lone = l->by == BR_BY_WORDS && r.count < 2;
+        const long more = r.numbers && !is_lone ? 3 * (long)r.numbers - (long)r.words : 0;
         size_t filled = r.count;
         while (filled > 1 && l->token[filled - 1].content == BR_NOTHING)
             filled--;
         l->gain[r.count] += more;
         l->gain[filled] += filled < r.count ? more : 0;
         l->names[r.count] += !r.numbers;
+        l->like[r.count] += more > 0;
     }
     size_t best = 1;
     for (size_t i = 1; i < WIDEST; i++)
@@ -95,7 +99,7 @@ static long measure(struct layout *l)
 static enum br_status choose(struct layout *l, size_t first)
 {
     long most = 0;
-    size_t widest = 0, width = 0;
+    size_t widest = 0, width = 0, rows = 0;
     int best = 0;
     for (int i = 2 * BR_BY_EQUALS; i < 2 * BR_SEPARATORS; i++) {
         l->by = (enum br_separator)(i / 2);
@@ -105,14 +109,19 @@ static enum br_status choose(struct layout *l, size_t first)
             most = score;
             best = i;
             width = l->width;
+            rows = l->like[width];
         }
         const size_t count = l->by < BR_BY_TABS ? 0 : look_at(l, first, l->room).count;
         widest = count > widest ? count : widest;
     }
-    l->by = (enum br_separator)(best / 2);
-    l->fields->mark = ".,"[best % 2];
-    if (!most && measure(l) > 0) /* by words */
+    l->by = BR_BY_WORDS;
+    l->fields->mark = '.';
+    if (rows < 2 && measure(l) > most && (!rows || l->like[l->width] > 1)) {
         width = l->width;
+    } else {
+        l->by = (enum br_separator)(best / 2);
+        l->fields->mark = ".,"[best % 2];
+    }
     l->width = l->fields->columns = width;
     const bool wide = width > BR_MOST_COLUMNS || (!width && widest > BR_MOST_COLUMNS);
     return width && !wide
@@ -274,28 +283,38 @@ static bool is_sequence(const struct layout *l)
     return columns > 1;
 }
 
-/* Refuses a line next to the last row (step: 1) or the first one (-1) that begins with the size
- * that comes next: "128 did not converge" is the finest row, and no footer. */
-static enum br_status check_next(const struct layout *l, size_t end, int step)
+static bool read_size(const struct layout *l, size_t line, size_t column, double *value)
 {
-    const size_t line = next_text(l, end, step), of[] = {next_text(l, end, -step), end, line};
-    double number[3];
-    for (int i = 0; i < 3; i++) {
-        struct br_field_number found;
-        const struct br_token *token = of[i] < l->lines ? l->row[of[i]].token : NULL;
-        const char *const name = l->row[end].token->name;
-        if (!token || !l->row[of[i]].count ||
-            !br_field_read(token->text, l->fields->mark, &found) ||
-            (name && strcmp(name, token->name) != 0) || is_taken(l, of[i]) != (i < 2))
-            return BR_OK;
-        number[i] = found.value;
-    }
-    return (number[1] - number[0]) * (number[2] - number[1]) > 0
-               ? br_fail(l->err, BR_BAD_INPUT,
-                         "%s:%zu: found '%.40s', expected a row as line %zu, with nan for a number "
-                         "that is missing",
-                         l->path, l->line[line].number, l->line[line].text, l->line[end].number)
-               : BR_OK;
+    char text[64];
+    struct br_field_number number = {0};
+    const bool is_there = column < l->row[line].count;
+    snprintf(text, sizeof text, "%s", is_there ? l->row[line].token[column].text : "");
+    const size_t length = strlen(text);
+    text[length - (length && text[length - 1] == ':')] = '\0'; /* "128: out of memory" */
+    const bool reads = br_field_read(text, l->fields->mark, &number);
+    *value = number.value;
+    return reads;
+}
+
+/* Whether a line that is no row has a size that the rows do not have, as where a run failed: the
+ * first name of pairs again, or behind the rows the next number of their first column of numbers.
+ */
+static bool is_failed_run(const struct layout *l, size_t line)
+{
+    const struct row *r = &l->row[line];
+    const bool pairs = l->by <= BR_BY_COLONS;
+    size_t column = 0;
+    double first, last, next, row;
+    while (!pairs && column + 1 < l->width && l->has_number[column] < l->rows)
+        column++;
+    if (!read_size(l, line, column, &next) || !(next > 0) || is_summary(r) ||
+        (pairs && strcmp(r->token->name, l->row[l->first].token->name) != 0))
+        return false;
+    for (size_t i = l->first; i <= l->last; i++)
+        if (l->row[i].is_row && read_size(l, i, column, &row) && row == next)
+            return false;
+    return pairs || (line > l->last && read_size(l, l->first, column, &first) &&
+                     read_size(l, l->last, column, &last) && (last - first) * (next - last) > 0);
 }
 
 /* Refuses what is no row between rows, but text in a sequence, and rows beside them that are
@@ -315,6 +334,11 @@ static enum br_status check_one_table(const struct layout *l)
             (r->numbers > 1 || i > l->last) && r->numbers > r->words && l->by > BR_BY_COLONS;
         if (r->count != l->width && is_data && !(r->words && !inside))
             return refuse_row(l, i, l->fields->heading_line ? "heading" : "first row");
+        if (is_failed_run(l, i))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found '%.40s', expected a row of %zu fields: write nan for a "
+                           "number that is missing, or # before a line that is no row",
+                           l->path, l->line[i].number, l->line[i].text, l->width);
         others += is_data;
         if ((inside && !(sequence && r->numbers <= r->words)) || others > 1)
             return br_fail(l->err, BR_BAD_INPUT,
@@ -323,7 +347,7 @@ static enum br_status check_one_table(const struct layout *l)
                            l->path, l->line[i].number, l->line[i].text, l->line[l->first].number,
                            l->line[inside ? before : l->last].number);
     }
-    return check_next(l, l->first, -1) ? l->err->status : check_next(l, l->last, 1);
+    return BR_OK;
 }
 
 static bool is_rate(const char *name)

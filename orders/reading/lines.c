@@ -372,22 +372,39 @@ static const char *begin_of_name(const char *at, const char *end)
     return begin;
 }
 
-/* The next number among the words from `at` to `end`, without what ends a clause; *behind (out):
- * its end. NULL: there is none. */
+/* The end of a word without what ends a clause: ":", "." and a bracket that it does not open. */
+static const char *end_of_word(const char *word, const char *end)
+{
+    const bool opens = memchr(word, '(', (size_t)(end - word)) != NULL;
+    while (end > word && strchr(opens ? ":." : ":.)", end[-1]))
+        end--;
+    return end;
+}
+
+/* A number that is missing, and ends its clause: "error nan". */
+static bool is_missing_at_end(const char *text, const char *behind)
+{
+    behind += strspn(behind, " \t");
+    return isalpha((unsigned char)text[strspn(text, "+-")]) && br_field_is_missing(text) &&
+           strchr(",;", *behind);
+}
+
+/* The next number among the words from `at` to `end`, or one that is missing; *behind (out): the
+ * end of its word. NULL: there is none. */
 static const char *next_number(const struct splitter *s, const char *at, const char *end,
                                const char **behind)
 {
     struct br_field_number number;
     for (const char *word = at; word < end; word = *behind) {
         char text[64];
-        word += strspn(word, " \t,;:=");
+        word += strspn(word, " \t,;:=(");
         *behind = word + strcspn(word, " \t,;=");
         for (size_t blanks; (blanks = strspn(*behind, " ")) && is_in_number(word, *behind, blanks);)
             *behind += blanks + strcspn(*behind + blanks, " \t,;=");
         *behind = *behind < end ? *behind : end;
-        const long length = *behind - word - (*behind > word && (*behind)[-1] == ':');
+        const long length = end_of_word(word, *behind) - word;
         snprintf(text, sizeof text, "%.*s", length > 0 && length < 64 ? (int)length : 0, word);
-        if (br_field_read(text, s->mark, &number))
+        if (br_field_read(text, s->mark, &number) || is_missing_at_end(text, *behind))
             return word;
     }
     return NULL;
@@ -411,7 +428,7 @@ static bool is_of_a_size(const char *name, const char *last)
 static const char *copy_name(struct splitter *s, const char *at, const char *end)
 {
     const size_t longest_symbol = 2;
-    while (end > at && strchr(" \t=:,", end[-1]))
+    while (end > at && strchr(" \t=:,(", end[-1]))
         end--;
     const char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
     const bool is_symbol = last && strlen(last + 1) <= longest_symbol &&
@@ -455,7 +472,7 @@ static bool add_label(struct splitter *s, const char *at, const char *end)
         last_end = behind;
     }
     if (last)
-        add_token(s, last, last_end - (last_end[-1] == ':'), copy_name(s, at, last));
+        add_token(s, last, end_of_word(last, last_end), copy_name(s, at, last));
     return last;
 }
 
@@ -489,14 +506,15 @@ static bool split_sentence(struct splitter *s, const char *at)
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0;
     const char *behind = at;
     for (const char *next; (next = next_number(s, behind, end, &behind)); at = behind) {
-        const char *name = copy_name(s, begin_of_name(at, next), next);
+        const char *const begin = begin_of_name(at, next);
+        const char *name = copy_name(s, begin + (*begin == '('), next);
         if (!*name || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
             return false;
-        const char *const last = behind - (behind[-1] == ':');
+        const char *const last = end_of_word(next, behind);
         name = add_unit(s, name, &behind);
         add_token(s, next, last, name);
     }
-    return s->count > 1;
+    return true;
 }
 
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
