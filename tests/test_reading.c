@@ -191,6 +191,7 @@ static const struct {
     {"h = 1 m, e = 1\nh = 500 mm, e = 2\n", ":t:2: found 'h [mm]=500', expected 'h [m] = ...'"},
     {"N = 8: e 2 mm\nN = 16: e 5 um\n", ":t:2: found 'e [um]=5', expected 'e [mm] = ...'"},
     {"n e\n8 1\n16 .2\n2 of 2 done\n", "n|e|\n8|1|\n16|.2|\n4 footer\n"},
+    {"N=8 e=1\nN=16 e=.2\nRun N=32: failed\n", ":t:3: found 'Run N=32: failed', expected a row"},
     {"See 4 for h=1: 5\nSo 2 of h=3: 7\n", ":t:2: found 'So=2', expected 'See = ...'"},
     {"[a] 2024-03-01 12:00:01 step size 0.1 error 3\n[b] 2024-03-01 12:00:02 step size 0.05 error 1",
      "step size|error|\n0.1|3|\n0.05|1|\n"},

@@ -296,6 +296,14 @@ static bool read_size(const struct layout *l, size_t line, size_t column, double
     return reads;
 }
 
+/* Whether a name is another one, or ends with it as a word: "Run N". */
+static bool ends_with(const char *name, const char *word)
+{
+    const size_t all = strlen(name), size = strlen(word);
+    return all >= size && strcmp(name + all - size, word) == 0 &&
+           (all == size || name[all - size - 1] == ' ');
+}
+
 /* Whether a line that is no row has a size that the rows do not have, as where a run failed: the
  * first name of pairs again, or behind the rows the next number of their first column of numbers.
  */
@@ -308,7 +316,7 @@ static bool is_failed_run(const struct layout *l, size_t line)
     while (!pairs && column + 1 < l->width && l->has_number[column] < l->rows)
         column++;
     if (!read_size(l, line, column, &next) || !(next > 0) || is_summary(r) ||
-        (pairs && strcmp(r->token->name, l->row[l->first].token->name) != 0))
+        (pairs && !ends_with(r->token->name, l->row[l->first].token->name)))
         return false;
     for (size_t i = l->first; i <= l->last; i++)
         if (l->row[i].is_row && read_size(l, i, column, &row) && row == next)
