@@ -51,8 +51,8 @@ bool br_signals_caught(void)
 void br_signals_raise_again(void)
 {
     const int number = caught ? caught : SIGINT;
-    fflush(stdout); /* it may name results that are written */
     signal(number, SIG_DFL);
+    fflush(stdout); /* it may name results that are written; a second signal ends a full pipe */
     raise(number);
 }
 

@@ -4,6 +4,7 @@
  * is taken. The rows are the lines of this width whose numbers stand in the columns of numbers. The
  * heading is the line above them, or the comment there. All else is named in fields->left, or
  * refused: what stands between rows, or has numbers that are no row, may be a second table. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -295,6 +296,14 @@ static bool read_size(const struct layout *l, size_t line, size_t column, double
     return reads;
 }
 
+/* Whether a name is another one, or ends with it as a word: "Run N". */
+static bool ends_with(const char *name, const char *word)
+{
+    const size_t all = strlen(name), size = strlen(word);
+    return all >= size && strcmp(name + all - size, word) == 0 &&
+           (all == size || name[all - size - 1] == ' ');
+}
+
 /* Whether a line that is no row has a size that the rows do not have, as where a run failed: the
  * first name of pairs again, or behind the rows the next number of their first column of numbers.
  */
@@ -307,7 +316,7 @@ static bool is_failed_run(const struct layout *l, size_t line)
     while (!pairs && column + 1 < l->width && l->has_number[column] < l->rows)
         column++;
     if (!read_size(l, line, column, &next) || !(next > 0) || is_summary(r) ||
-        (pairs && strcmp(r->token->name, l->row[l->first].token->name) != 0))
+        (pairs && !ends_with(r->token->name, l->row[l->first].token->name)))
         return false;
     for (size_t i = l->first; i <= l->last; i++)
         if (l->row[i].is_row && read_size(l, i, column, &row) && row == next)
@@ -755,24 +764,50 @@ static enum br_status take_fields(struct layout *l)
     return check_marks(l) || trim_columns(l) ? l->err->status : BR_OK;
 }
 
-/* Turns a table whose rows are the sizes and the errors: "h,1/2,1/4,1/8", with the name of a size
- * among its names, and numbers behind them. */
-static enum br_status turn(const struct layout *l)
+/* Whether numbers behind a name halve, or double. */
+static bool halves(const struct br_fields *f, const char *const *field)
 {
-    struct br_fields *f = l->fields;
-    const size_t rows = f->columns ? f->columns - 1 : 0, columns = f->rows;
-    bool has_size = false;
-    for (size_t i = 0; i < columns; i++) {
+    double last = NAN;
+    for (size_t j = 1; j < f->columns; j++) {
+        struct br_field_number number;
+        if (!field[j] || !br_field_read(field[j], f->mark, &number) ||
+            (j > 1 && !(number.value == 2 * last || last == 2 * number.value)))
+            return false;
+        last = number.value;
+    }
+    return true;
+}
+
+/* Whether the rows are the sizes and the errors: "h,1/2,1/4,1/8", numbers behind names. "h" may
+ * also be a method, beside "p" and "hp", or a case of several rows: so another row is called an
+ * error, or the first one has sizes that halve. */
+static bool is_turned(const struct br_fields *f)
+{
+    bool has_size = false, has_error = false;
+    for (size_t i = 0; i < f->rows; i++) {
         const char *const *field = &f->field[i * f->columns];
-        for (size_t j = 0; j < f->columns; j++) {
-            struct br_field_number number;
+        struct br_field_number number;
+        for (size_t j = 0; j < f->columns; j++)
             if ((j == 0) != (field[j] && !br_field_is_missing(field[j]) &&
                              !br_field_read(field[j], f->mark, &number)))
-                return BR_OK;
-        }
-        has_size |= br_size_name_odds(field[0]) > BR_ANY_NAME;
+                return false;
+        const bool is_size = br_size_name_odds(field[0]) > BR_ANY_NAME;
+        for (size_t k = 0; k < i && is_size; k++)
+            if (strcmp(f->field[k * f->columns], field[0]) == 0)
+                return false;
+        has_size |= is_size;
+        has_error |= br_kind_of(field[0]) == BR_KIND_ERROR;
     }
-    if (f->heading_line || !has_size || rows < 2 || columns > BR_MOST_COLUMNS)
+    return has_size &&
+           (has_error || (br_size_name_odds(f->field[0]) > BR_ANY_NAME && halves(f, f->field)));
+}
+
+static enum br_status turn(const struct layout *l)
+{
+    enum { LEAST_SIZES = 3 };
+    struct br_fields *f = l->fields;
+    const size_t rows = f->columns ? f->columns - 1 : 0, columns = f->rows;
+    if (f->heading_line || rows < LEAST_SIZES || columns > BR_MOST_COLUMNS || !is_turned(f))
         return BR_OK;
     const char **turned = br_store_take(&f->store, rows * columns, sizeof *turned);
     size_t *line = br_store_take(&f->store, rows, sizeof *line);

@@ -399,6 +399,8 @@ static const char *next_number(const struct splitter *s, const char *at, const c
         char text[64];
         word += strspn(word, " \t,;:=(");
         *behind = word + strcspn(word, " \t,;=");
+        for (size_t blanks; (blanks = strspn(*behind, " ")) && is_in_number(word, *behind, blanks);)
+            *behind += blanks + strcspn(*behind + blanks, " \t,;=");
         *behind = *behind < end ? *behind : end;
         const long length = end_of_word(word, *behind) - word;
         snprintf(text, sizeof text, "%.*s", length > 0 && length < 64 ? (int)length : 0, word);
@@ -408,17 +410,56 @@ static const char *next_number(const struct splitter *s, const char *at, const c
     return NULL;
 }
 
+/* Whether a name without its last word says that this one is a size: it is nothing of its own, as
+ * "Running" before "dt", or "error for" before "n"; but the "error in" h is an error. */
+static bool is_of_a_size(const char *name, const char *last)
+{
+    static const char *const before[] = {" for", " at", " with"};
+    bool is = !br_kind_of(name);
+    for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
+        const size_t length = strlen(before[i]);
+        is |= last - name > (long)length && strncmp(last - length, before[i], length) == 0;
+    }
+    return is;
+}
+
 /* A name from `at` to `end`, without the blanks and signs behind it. The symbol of a size at its
- * end is the name, whatever a sentence has before it: "Running dt". */
+ * end is the name, whatever a sentence has before it. */
 static const char *copy_name(struct splitter *s, const char *at, const char *end)
 {
     const size_t longest_symbol = 2;
     while (end > at && strchr(" \t=:,(", end[-1]))
         end--;
     const char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
-    const bool is_symbol =
-        last && strlen(last + 1) <= longest_symbol && br_size_name_odds(last + 1) >= BR_USUAL_NAME;
+    const bool is_symbol = last && strlen(last + 1) <= longest_symbol &&
+                           br_size_name_odds(last + 1) >= BR_USUAL_NAME && is_of_a_size(name, last);
     return is_symbol ? last + 1 : name;
+}
+
+/* The name with the unit that ends the clause of a number, as a heading has it: lines with other
+ * units have other names. *at: behind the number, then behind the unit. */
+static const char *add_unit(struct splitter *s, const char *name, const char **at)
+{
+    char unit[16];
+    const char *const word = *at + strspn(*at, " \t");
+    const size_t length = strcspn(word, " \t,;:");
+    snprintf(unit, sizeof unit, "%.*s", length < sizeof unit ? (int)length : 0, word);
+    if (word == *at || !br_is_unit(unit) ||
+        (is_blank(word[length]) && !is_blank(word[length + 1])) ||
+        (word[length] == ':' && s->by == BR_BY_COLONS))
+        return name;
+    *at = word + length;
+    const char *const whole = s->room;
+    s->room += sprintf(s->room, "%s [%s]", name, unit) + 1;
+    return whole;
+}
+
+/* Whether the number before `at` has an exponent behind a blank: "2.3 e-2". */
+static bool has_exponent_behind(const char *at)
+{
+    at += strspn(at, " \t");
+    const char *const digits = *at && strchr("eEdD", *at) ? at + 1 + strspn(at + 1, "+-") : "";
+    return isdigit((unsigned char)*digits);
 }
 
 /* Whether a word from `at` to `end` is a number; then adds the last one, named by what is before
@@ -450,8 +491,9 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
         while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
-        add_token(s, value, at - (at > value && at[-1] == ':'), copy_name(s, name, equals));
-        if (strspn(name, " +-.0123456789") >= (size_t)(equals - name))
+        const char *const end = at - (at > value && at[-1] == ':');
+        add_token(s, value, end, add_unit(s, copy_name(s, name, equals), &at));
+        if (strspn(name, " +-.0123456789") >= (size_t)(equals - name) || has_exponent_behind(at))
             return false; /* a time, as 12:30 */
     }
     return !add_label(s, at, at + strlen(at));
@@ -465,10 +507,12 @@ static bool split_sentence(struct splitter *s, const char *at)
     const char *behind = at;
     for (const char *next; (next = next_number(s, behind, end, &behind)); at = behind) {
         const char *const begin = begin_of_name(at, next);
-        const char *const name = copy_name(s, begin + (*begin == '('), next);
-        if (!*name || s->count > BR_MOST_COLUMNS)
+        const char *name = copy_name(s, begin + (*begin == '('), next);
+        if (!*name || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
             return false;
-        add_token(s, next, end_of_word(next, behind), name);
+        const char *const last = end_of_word(next, behind);
+        name = add_unit(s, name, &behind);
+        add_token(s, next, last, name);
     }
     return true;
 }
