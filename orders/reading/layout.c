@@ -132,6 +132,18 @@ static enum br_status choose(struct layout *l, size_t first)
 
 /* ---- rows ---- */
 
+/* A line beside pairs: with its first number alone, as "N = 128: diverged in step 3". */
+static struct row look_at_sentence(struct layout *l, size_t line, char *room)
+{
+    const enum br_separator by = l->by;
+    l->by = BR_BY_WORDS;
+    struct row r = look_at(l, line, room);
+    l->by = by;
+    r.count = r.count > 0;
+    r.numbers = r.words = 0;
+    return r;
+}
+
 /* Splits all lines, and counts the numbers of columns. */
 static enum br_status split_lines(struct layout *l)
 {
@@ -146,6 +158,8 @@ static enum br_status split_lines(struct layout *l)
             return br_no_memory(l->err, "the table");
         struct row *r = &l->row[i];
         *r = look_at(l, i, room);
+        if (!r->count && l->by <= BR_BY_COLONS)
+            *r = look_at_sentence(l, i, room);
         r->token = br_store_take(store, r->count + 1, sizeof *r->token);
         if (!r->token)
             return br_no_memory(l->err, "the table");
@@ -288,7 +302,8 @@ static bool read_size(const struct layout *l, size_t line, size_t column, double
     char text[64];
     struct br_field_number number = {0};
     const bool is_there = column < l->row[line].count;
-    snprintf(text, sizeof text, "%s", is_there ? l->row[line].token[column].text : "");
+    const char *const field = is_there ? l->row[line].token[column].text : "";
+    snprintf(text, sizeof text, "%s", strchr(field, '=') ? strchr(field, '=') + 1 : field);
     const size_t length = strlen(text);
     text[length - (length && text[length - 1] == ':')] = '\0'; /* "128: out of memory" */
     const bool reads = br_field_read(text, l->fields->mark, &number);
