@@ -376,13 +376,15 @@ static void write_ends(FILE *out, const struct br_panel *p, double width, double
                 (40 + LETTER * (double)longest) / width);
     for (size_t j = 0; j < p->count; j++) {
         const struct br_series *s = p->series[j];
+        if (!s->count)
+            continue;
         const struct br_figure_point *last = s->point + s->count - 1;
         if (is_box(p, s) && count_drawn(p, s, false) == s->count)
             fprintf(out,
                     "set object rectangle from %.9g,%.9g to %.9g,%.9g behind "
                     "fc rgb '#d4d4d4' fs solid noborder\n",
                     s->point->x, last->y - half, last->x, last->y + half);
-        if (!s->end[0] || !s->count)
+        if (!s->end[0])
             continue;
         fputs("set label ", out);
         br_quote(out, &br_for_gnuplot, s->end);

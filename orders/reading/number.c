@@ -178,9 +178,11 @@ static const char *take_times(struct reader *r, const char *at, double *value)
 static const char *take_pi(struct reader *r, const char *at, double *value)
 {
     const char *const number = strncmp(at, "pi", 2) == 0 ? at : take_number(r, at, value);
-    const char *pi = number ? skip(number) : NULL;
-    pi += pi && pi > at && *pi == '*';
-    if (!pi || strncmp(pi, "pi", 2) != 0)
+    if (!number)
+        return NULL;
+    const char *pi = skip(number);
+    pi += pi > at && *pi == '*';
+    if (strncmp(pi, "pi", 2) != 0)
         return number;
     *value = M_PI * (number == at ? 1 : *value);
     return pi + 2;

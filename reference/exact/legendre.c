@@ -251,8 +251,9 @@ void br_stage_factor(struct br_stage_system *s, const struct br_radau *radau)
         for (size_t i = 0; i < s->width; i++) {
             double p = diagonal, q = 1;
             if (k > 0) { /* + coupling^2 over the pivot before */
-                p += square * (all_p[i - s->width] + s->b * all_q[i - s->width]);
-                q -= square * all_q[i - s->width];
+                const double *const before_p = all_p - s->width, *const before_q = all_q - s->width;
+                p += square * (before_p[i] + s->b * before_q[i]);
+                q -= square * before_q[i];
             }
             const double norm = p * p + p * q * s->b + q * q * s->a[i];
             all_p[i] = p / norm;

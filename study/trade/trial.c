@@ -259,7 +259,7 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
     for (size_t c = 0; c < g->cells; c++) {
         const struct br_trial *t = g->member[c];
         levels = c == 0 ? 0 : br_common_levels(levels, t->at.steps);
-        struct br_study *s = &g->study[g->count - 1];
+        struct br_study *s = g->count > 0 ? &g->study[g->count - 1] : NULL;
         g->steps[c] = t->at.steps;
         g->method[c] = br_trial_method(t);
         if (levels == 0 || t->at.n != *s->n ||
