@@ -388,6 +388,8 @@ static void decide_beyond(struct br_case *c, const struct br_point *first)
  */
 static void name_row(struct br_case *c)
 {
+    if (!c->points)
+        return;
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost =
         !vanishes(c, last) && (last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE ||
