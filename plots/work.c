@@ -17,14 +17,12 @@ static void add_point(struct br_series *s, const struct br_work_point *p)
  * each program's own best. */
 static void add_work(struct br_figure *f, const struct br_work_precision *w)
 {
-    char text[MARKUP];
-    struct br_panel *panel = br_panel_add(f, "", "");
-    BR_SAY(panel->x_label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
+    char text[MARKUP], x[96];
+    BR_SAY(x, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
            *w->cost_unit ? ", " : "", w->cost_unit);
-    panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "error %.50s%s%.20s",
-           br_quoted(text, MARKUP, &br_for_markup, w->quantity), w->unit ? ", " : "",
-           w->unit ? w->unit : "");
+    br_panel_add(f, true, x, "error %.50s%s%.20s",
+                 br_quoted(text, MARKUP, &br_for_markup, w->quantity), w->unit ? ", " : "",
+                 w->unit ? w->unit : "");
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "front of all"), *others = NULL;
     for (size_t i = 0; i < w->points; i++) {
         if (w->point[i].front)
