@@ -25,9 +25,8 @@ static void open_rows(const struct br_markup_page *p, const struct br_document_t
 
 static void picture(struct br_markup_page *p, const struct br_block *b)
 {
-    br_markup_put(p, "![", b->text, "](<");
-    br_quote(p->out, &br_for_text, b->what.key);
-    fputs(".svg>)\n", p->out);
+    br_print(p->out, &br_for_markdown, "![%s]", b->text);
+    br_print(p->out, &br_for_text, "(<%s.svg>)\n", b->what.key);
 }
 
 /* Prints the command line between backticks, unless it contains one. */
@@ -38,12 +37,10 @@ static void end(const struct br_markup_page *p)
     if (!from->version)
         return;
     fprintf(p->out, "\nbeamrate %s (%s), %s", from->version, from->commit, from->date);
-    if (line) {
-        const bool plain = !strchr(line, '`');
-        fputs(plain ? ": `" : ": ", p->out);
-        br_quote(p->out, plain ? &br_for_text : &br_for_markdown, line);
-        fputs(plain ? "`" : "", p->out);
-    }
+    if (line && strchr(line, '`'))
+        br_print(p->out, &br_for_markdown, ": %s", line);
+    else if (line)
+        br_print(p->out, &br_for_text, ": `%s`", line);
     fputc('\n', p->out);
 }
 
