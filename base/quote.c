@@ -210,9 +210,10 @@ void br_print(FILE *out, const struct br_quoting *target, const char *format, ..
         const size_t size = *c ? 2 + strspn(c + 1, "+-.0123456789z") : 0;
         snprintf(conversion, sizeof conversion, "%.*s", (int)size, c);
         c += size;
-        if (size && c[-1] == 's')
-            br_quote(out, target, va_arg(arguments, const char *));
-        else if (size && c[-1] == 'd')
+        if (size && c[-1] == 's') {
+            const char *text = va_arg(arguments, const char *);
+            br_quote(out, target, text ? text : "");
+        } else if (size && c[-1] == 'd')
             fprintf(out, conversion, va_arg(arguments, int));
         else if (size && c[-1] == 'u')
             fprintf(out, conversion, va_arg(arguments, size_t));

@@ -47,7 +47,7 @@ extern const struct br_quoting br_for_zsh;        /* between [ and ] of a string
 /* Writes a text for a target. */
 void br_quote(FILE *out, const struct br_quoting *target, const char *text);
 
-/* printf whose texts are written for a target: of %s, %d, %zu, %%, and numbers. */
+/* printf whose texts are written for a target (NULL: an empty one): of %s, %d, %zu, %%, numbers. */
 __attribute__((format(printf, 3, 4))) void br_print(FILE *out, const struct br_quoting *target,
                                                     const char *format, ...);
 
