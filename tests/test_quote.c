@@ -43,7 +43,7 @@ static const char *quoted(const struct br_quoting *target, const char *text)
 /* The pieces between texts, the numbers, and a text that is not there. */
 TEST(test_print)
 {
-    static const char *absent; /* NULL, of which the compiler does not know */
+    static const char *volatile absent; /* NULL, of which the compiler does not know */
     char text[200] = "";
     FILE *out = fmemopen(text, sizeof text, "w");
     assert_non_null(out);
