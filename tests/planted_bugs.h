@@ -779,7 +779,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(c->tip[BR_AXIAL])", "br_number(c->tip[BR_BENDING])"},
     {"low_end_is_the_high", "printed", "tables/report_cells.c", "golden study", "br_number(e->low)",
      "br_number(e->high)"},
-    {"triangle_with_one_corner", "printed", "tables/beam/report_study.c", "golden tables",
+    {"triangle_with_one_corner", "printed", "tables/beam/report_answers.c", "golden tables",
      "br_count(t->b.n)", "br_count(t->a.n)"},
     {"claim_without_its_error", "printed", "tables/beam/report_claims.c", "tests/test_report_values",
      "br_number(f->error)", "br_number(f->exact)"},

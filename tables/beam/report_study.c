@@ -5,190 +5,13 @@
 #include "reference/exact/exact.h"
 #include "solver/scene.h"
 #include "study/fit/report.h"
-#include "study/grid/study.h"
 #include "study/scene/method_fields.h"
 #include "tables/beam/report_parts.h"
 
-/* k of a cell, s. */
-static double step_of(const struct br_study *s, const struct br_cell *c)
-{
-    return br_time_step(s->scene, c->at.steps);
-}
-
-/* An error over the norm of the solution, or of its field; not finite where the norm is not
- * known. */
-static double relative_of(const struct br_study *s, const struct br_cell *c, enum br_part part)
-{
-    return c->error[part] /
-           (part == BR_PART_TOTAL ? s->reference_scale : s->reference_size[part - BR_PART_AXIAL]);
-}
-
-static const struct br_cell *finest_of(const struct br_study *s)
-{
-    return &s->cell[s->n_count * s->k_count - 1];
-}
-
-/* Whether a component is shown: a scene of one field has the total alone. */
-static bool part_is_shown(const struct br_report *r, enum br_part part)
+bool br_part_is_shown(const struct br_report *r, enum br_part part)
 {
     const struct br_scene *s = r->study->scene;
     return part == BR_PART_TOTAL || (s->axial.modelled && s->bending.modelled);
-}
-
-/* ---- the answer ---- */
-
-/* Puts the name of a reference, its own error and its round-off. own: NaN where it is not known. */
-static void say_reference(struct br_document *d, const struct br_study *s, double own)
-{
-    const double floor = s->reference_report.round_off * s->reference_scale;
-    const double stated =
-        br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, BR_PART_TOTAL);
-    br_put_more(d, "Reference: %s %s, ", s->reference_kind->name,
-                s->reference_kind->nests ? "run" : "solution");
-    if (!isfinite(own))
-        br_put_more(d, "accuracy not known, since the joint fit does not describe the errors");
-    else if (s->reference_check)
-        br_put_more(d, "accurate to %.1e (measured against the %s solution)", own,
-                    s->reference_check->name);
-    else
-        br_put_more(d, "accurate to %.1e (by %s)", own,
-                    isfinite(stated) ? "its own estimate" : "the joint fit");
-    if (floor > 0)
-        br_put_more(d, ", round-off about %.0e", floor);
-    br_put_more(d, "; ");
-}
-
-/* Puts the number of cells that are left out of fits, and why. */
-static void say_flags(struct br_document *d, const struct br_study *s)
-{
-    static const char *const why[BR_CELL_FLAGS] = {
-        [BR_FLAG_REFERENCE] = "too near the reference's own error (R)",
-        [BR_FLAG_ROUND_OFF] = "too near the predicted round-off (F)",
-        [BR_FLAG_FAILED] = "failed (X)",
-        [BR_FLAG_UNSTABLE] = "beyond the stability limit of the lagged contact (U: the tip may "
-                             "chatter; use a smaller k or --contact implicit)",
-        [BR_FLAG_STALLED] = "no smaller than on coarser grids (S)",
-        [BR_FLAG_COARSE] = "not asymptotic (C)",
-        [BR_FLAG_OUTLIER] = "far from the neighbours (O)",
-        [BR_FLAG_BY_HAND] = "left out by hand (H)",
-    };
-    const size_t cells = s->n_count * s->k_count;
-    size_t count[BR_CELL_FLAGS] = {0};
-    for (size_t i = 0; i < cells; i++)
-        count[s->cell[i].flag[BR_PART_TOTAL]]++;
-    if (count[BR_FLAG_NONE] == cells) {
-        if (cells == 1)
-            br_put_more(d, "its one error is used.");
-        else
-            br_put_more(d, "all %zu errors are used.", cells);
-        return;
-    }
-    br_put_more(d, "%zu of %zu errors are left out of fits:", cells - count[BR_FLAG_NONE], cells);
-    br_put_list(d, " ", "; ");
-    for (enum br_flag flag = BR_FLAG_NONE + 1; flag < BR_CELL_FLAGS; flag++)
-        if (count[flag])
-            br_put_item(d, "%zu %s", count[flag], why[flag]);
-    br_put_more(d, ".");
-}
-
-static void answer_printed(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->study;
-    size_t differ = 0, compared = 0, farthest = 0, pairs = 0;
-    double least = INFINITY, most = 0, distance = -1;
-    for (size_t i = 0; r->printed && i < s->n_count * s->k_count; i++) {
-        const double ratio = br_report_ratio(r, i);
-        if (!isfinite(ratio))
-            continue;
-        compared++;
-        least = fmin(least, ratio);
-        most = fmax(most, ratio);
-        differ += !(ratio >= 0.95 && ratio <= 1.05);
-        farthest = fabs(log(ratio)) > distance ? i : farthest;
-        distance = fmax(distance, fabs(log(ratio)));
-    }
-    if (!compared)
-        return;
-    for (size_t i = 0; i < r->triangles; i++)
-        pairs += r->triangle[i].contradiction;
-    if (!differ)
-        br_put_answer(d, "Our errors and the printed ones agree within 5 %% in all %zu cells.",
-                      compared);
-    else
-        br_put_answer(
-            d,
-            "Our errors (reference: %s) DIFFER from the printed ones by more than 5 %% in %zu of "
-            "%zu cells: ours over printed is %.2g to %.2g. The largest deviation is at n = %zu, k "
-            "= %g s: ours %.3e, printed %.3e.",
-            s->reference_kind->name, differ, compared, least, most, s->cell[farthest].at.n,
-            step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
-            r->printed[farthest]);
-    if (differ && pairs)
-        br_put_answer(
-            d,
-            "No reference solution could produce the printed errors: at least %zu pair%s of them violate%s "
-            "the triangle inequality.",
-            pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
-}
-
-static void put_answers(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->fitted;
-    char text[64];
-    for (int i = 0; i < BR_AXES; i++) {
-        const struct br_observed_order *observed = &r->observed[BR_PART_TOTAL][i];
-        if (!observed->asked)
-            continue;
-        const struct br_theory *t = &observed->theory;
-        br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
-        if (isfinite(observed->order.value))
-            br_put_more(d, "%s, ", br_order_text(&observed->order, text, sizeof text));
-        br_put_more(d, "%s", observed->remark);
-        if (!isnan(t->order))
-            br_put_more(d, "; theory %s", br_range_text(t->order, t->highest, text, sizeof text));
-        if (isnan(t->order) && isnan(observed->order.value))
-            br_put_more(d, "; theory: none");
-        if (*t->reason && !(isnan(t->order) && isfinite(observed->order.value)))
-            br_put_more(d, " (%s)", t->reason);
-        if (isfinite(observed->order.value) && *observed->by)
-            br_put_more(d, "; measured from %s", observed->by);
-        br_put_more(d, ".");
-    }
-
-    const struct br_cell *c = finest_of(s);
-    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    br_put_answer(d, "Error of the finest cell (n = %zu, k = %g s): ", c->at.n, step_of(s, c));
-    if (isfinite(error))
-        br_put_more(d, "%.3e %s", error, s->norm->unit);
-    else
-        br_put_more(d, "none, the march failed");
-    if (isfinite(relative))
-        br_put_more(d, ", relative %.2e", relative);
-    br_put_more(d, ".");
-
-    br_put_answer(d, "%s", "");
-    say_reference(d, s, r->fits[BR_PART_TOTAL].reference_error);
-    say_flags(d, s);
-    for (int i = 0; i < (r->exact ? 2 : 1); i++) {
-        const struct br_study *of = i ? r->study : s;
-        if (of->reference_report.unstable)
-            br_put_answer(d,
-                          "The %s reference is beyond the stability limit of the lagged contact: "
-                          "do not trust it.",
-                          of->reference_kind->name);
-    }
-
-    const double k = br_time_step(s->scene, s->steps[s->k_count - 1]);
-    const struct br_reference_report *by = &s->reference_report;
-    if (by->shortest.length > 0 && by->shortest.length < k)
-        br_put_answer(d,
-                      "In the exact solution the %s%s for %.2g s from t = %.4g s on. Steps of %g s "
-                      "do not resolve this.",
-                      by->shortest.phase >= BR_STICK ? "tip " : "",
-                      br_phase_text((enum br_phase)by->shortest.phase), by->shortest.length,
-                      by->shortest.from, k);
-
-    answer_printed(d, r);
 }
 
 /* ---- grids, for people: a row for each mesh, a column for each time step ---- */
@@ -243,7 +66,7 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
 static void put_grids(struct br_document *d, const struct br_report *r)
 {
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        if (part_is_shown(r, part))
+        if (br_part_is_shown(r, part))
             put_error_grid(d, r, r->fitted, part);
     if (r->exact)
         put_error_grid(d, r, r->study, BR_PART_TOTAL);
@@ -257,91 +80,6 @@ static void put_grids(struct br_document *d, const struct br_report *r)
                  "ratio",
                  br_format(d, "Ours (against %s) over printed", r->study->reference_kind->name),
                  r->study, .value = br_report_ratio, .format = "%.3f"});
-}
-
-/* ---- fits ---- */
-
-/* People do not see the numbers of a fit that does not describe the errors, nor an order of it that
- * is not the answer: no page has two answers to one question. */
-static void put_fits(struct br_document *d, const struct br_report *r)
-{
-    static const char *const kinds[] = {"space and time", "time", "space"};
-    bool shown = false;
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        shown |= part_is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
-    br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
-                 shown ? 0 : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        const struct br_joint_fit *j = &r->fits[part].joint;
-        const bool claims = br_joint_describes(j);
-        if (!part_is_shown(r, part))
-            continue;
-        br_put_row(d);
-        BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-        BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
-               .flags = BR_FILES_ONLY);
-        if (!j->converged)
-            br_put_shown(d, "none");
-        for (int a = 0; a < BR_AXES; a++) {
-            const bool sure = r->observed[part][a].joint; /* else another order is the answer */
-            BR_PUT_ESTIMATE(d, a ? "q_" : "p_", &j->order[a],
-                            sure     ? br_order_shown(d, &j->order[a])
-                            : claims ? "not used"
-                                     : "-",
-                            .key = a ? "q" : "p", .heading = a ? "q [95 %]" : "p [95 %]");
-            BR_PUT_ESTIMATE(d, a ? "C_k_" : "C_h_", &j->c[a], claims ? NULL : "-",
-                            .key = a ? "C_k" : "C_h", .format = "%.3g");
-        }
-        BR_PUT_ESTIMATE(d, "r_", &j->r, claims ? br_interval_shown(d, &j->r) : "-", .key = "r",
-                        .heading = "r [95 %]");
-        BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
-        BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
-        BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
-               .flags = BR_FILES_ONLY);
-        BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
-        br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
-        BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
-        BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "usable",
-               .flags = BR_FILES_ONLY);
-        br_hide(d, "reference_error", r->study->norm->unit,
-                br_number(r->fits[part].reference_error));
-    }
-}
-
-/* ---- contradictions ---- */
-
-static void put_triangle(struct br_document *d, const struct br_scene *scene,
-                         const struct br_triangle *t)
-{
-    br_put_row(d);
-    BR_PUT(d, br_count(t->a.n), .key = "a_n", .heading = "n");
-    BR_PUT(d, br_number(br_time_step(scene, t->a.steps)), .key = "a_k", .heading = "k",
-           .unit = "s");
-    BR_PUT(d, br_count(t->b.n), .key = "b_n", .heading = "and n");
-    BR_PUT(d, br_number(br_time_step(scene, t->b.steps)), .key = "b_k", .heading = "k",
-           .unit = "s");
-    BR_PUT(d, br_number(t->printed_a), .key = "printed_a", .heading = "printed", .format = "%.3e");
-    BR_PUT(d, br_number(t->printed_b), .key = "printed_b", .heading = "and", .format = "%.3e");
-    BR_PUT(d, br_number(t->least), .key = "least", .heading = "need at least", .format = "%.2e");
-    BR_PUT(d, br_number(t->most), .key = "most", .heading = "at most", .format = "%.2e");
-    BR_PUT(d, br_number(t->distance), .key = "distance", .heading = "are apart", .format = "%.2e");
-    BR_PUT(d, br_truth(t->contradiction), .key = "contradiction");
-}
-
-/* Puts nothing where no errors are printed in the paper. */
-static void put_triangles(struct br_document *d, const struct br_report *r)
-{
-    if (!r->printed)
-        return;
-    br_put_table(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)",
-                 BR_FILES_ONLY);
-    put_triangle(d, r->study->scene, &(struct br_triangle){0});
-    br_put_no_row(d);
-    for (size_t i = 0; i < r->triangles; i++)
-        put_triangle(d, r->study->scene, &r->triangle[i]);
-    br_put_note(d, "For every reference, the distance of two solutions is at least the difference "
-                   "of their errors, and at most the sum. The last column but one is the distance "
-                   "of the scheme's own solutions.");
 }
 
 /* ---- lists ---- */
@@ -372,9 +110,9 @@ static void put_cell(struct br_document *d, const struct br_report *r, const str
     BR_PUT(d, br_count(c->at.n), .key = "n");
     BR_PUT(d, br_number(br_mesh_size(s->scene, c->at.n)), .key = "h", .unit = "m");
     BR_PUT(d, br_count(c->at.steps), .key = "steps");
-    BR_PUT(d, br_number(step_of(s, c)), .key = "k", .unit = "s");
+    BR_PUT(d, br_number(br_step_of(s, c)), .key = "k", .unit = "s");
     BR_PUT(d, br_number(c->error[part]), .key = "error", .unit = unit);
-    BR_PUT(d, br_number(relative_of(s, c, part)), .key = "relative");
+    BR_PUT(d, br_number(br_relative_of(s, c, part)), .key = "relative");
     BR_PUT(d, br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL), .key = "flag");
     BR_PUT(d, rate_to(s, cell, part, BR_AXIS_SPACE), .key = "rate_h");
     BR_PUT(d, rate_to(s, cell, part, BR_AXIS_TIME), .key = "rate_k");
@@ -395,133 +133,24 @@ static void put_cells(struct br_document *d, const struct br_report *r)
     br_put_table(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN);
     for (size_t i = 0; i < 2 && studies[i]; i++)
         for (enum br_part part = 0; part < BR_PARTS; part++)
-            for (size_t c = 0; part_is_shown(r, part) && c < br_study_cells(r->study); c++)
+            for (size_t c = 0; br_part_is_shown(r, part) && c < br_study_cells(r->study); c++)
                 put_cell(d, r, studies[i], part, c);
-}
-
-/* ---- notes ---- */
-
-/* Puts the reference of a study. */
-static void put_reference_line(struct br_document *d, const char *label, const struct br_study *s)
-{
-    char method[BR_METHOD_TEXT];
-    if (s->reference_kind->nests)
-        br_put_note(d, "%s %s, %s: N = %zu, K = %g s; %s.", label, s->reference_kind->name,
-                    s->reference_kind->title, s->reference.n, br_reference_step(s),
-                    br_method_text(&(struct br_meshes){s->scene, &s->reference.n, 1},
-                                   &s->reference_method, method));
-    else
-        br_put_note(d, "%s %s, %s.", label, s->reference_kind->name, s->reference_kind->title);
-}
-
-static void put_notes(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->study;
-    char method[BR_METHOD_TEXT];
-    br_put_section(d, "What was measured");
-    br_put_note(d, "%s", s->norm->title);
-    br_put_note(d, "Theory: %s", s->norm->theory);
-    br_put_note(
-        d, "Cells: %s.",
-        br_method_text(&(struct br_meshes){s->scene, s->n, s->n_count}, &s->method, method));
-    put_reference_line(d, "Reference:", r->fitted);
-    if (r->exact) { /* the study that is not fitted */
-        put_reference_line(d, "Second reference:", s);
-        br_put_note(d, "%s", "");
-        say_reference(d, s, s->reference_error[BR_PART_TOTAL]);
-        say_flags(d, s);
-    }
-    br_put_note(d,
-                "Too near: below %g times the own error of the reference (R) or the predicted "
-                "round-off (F).",
-                br_flag_margin);
-    br_put_note(d, "Joint fit with 95 %% intervals: e^2 = a^2 + 2 r a b + b^2, "
-                   "a = C_h (h^p - h_ref^p), b = C_k (k^q - k_ref^q).");
-    for (size_t i = 0; i < s->n_count * s->k_count; i++)
-        if (s->cell[i].failure.status)
-            br_put_note(d, "Failed: n = %zu, k = %g s: %s.", s->cell[i].at.n,
-                        step_of(s, &s->cell[i]), s->cell[i].failure.message);
-}
-
-/* ---- facts, for programs ---- */
-
-static void put_reference_facts(struct br_document *d, const char *key, const struct br_study *s)
-{
-    static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
-    const char *unit = s->norm->unit;
-    br_hide_fact(d, br_text(s->reference_kind->name), NULL, "%s.kind", key);
-    br_hide_fact(d, br_text(s->reference_kind->title), NULL, "%s.title", key);
-    if (s->reference_kind->nests) {
-        br_hide_fact(d, br_count(s->reference.n), NULL, "%s.at.n", key);
-        br_hide_fact(d, br_number(br_reference_mesh(s)), "m", "%s.at.h", key);
-        br_hide_fact(d, br_count(s->reference.steps), NULL, "%s.at.steps", key);
-        br_hide_fact(d, br_number(br_reference_step(s)), "s", "%s.at.k", key);
-        br_put_method_facts(d, br_format(d, "%s.method", key), &s->reference_method,
-                            &(struct br_meshes){s->scene, &s->reference.n, 1});
-    }
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        br_hide_fact(
-            d,
-            br_number(br_norm_of_constant(s->norm, s->scene, s->reference_report.own_error, part)),
-            unit, "%s.%s", key, own[part]);
-    br_hide_fact(d, br_number(s->reference_error[BR_PART_TOTAL]), unit, "%s.measured_error", key);
-    br_hide_fact(d, br_number(s->reference_scale), unit, "%s.scale", key);
-    br_hide_fact(d, br_number(s->reference_report.round_off), NULL, "%s.round_off", key);
-    br_hide_fact(d, br_number(s->reference_report.seconds), "s", "%s.seconds", key);
-}
-
-static void put_facts(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->study, *fitted = r->fitted;
-    const struct br_cell *finest = finest_of(fitted);
-    br_hide_fact(d, br_text(s->scene->name), NULL, "scene.name");
-    br_hide_fact(d, br_text(s->norm->name), NULL, "norm.name");
-    br_hide_fact(d, br_text(s->norm->unit), NULL, "norm.unit");
-    br_hide_fact(d, br_text(s->norm->title), NULL, "norm.title");
-    br_put_method_facts(d, "method", &s->method, &(struct br_meshes){s->scene, s->n, s->n_count});
-    put_reference_facts(d, "reference", s);
-    if (r->exact)
-        put_reference_facts(d, "exact_reference", r->exact);
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (int i = 0; i < BR_AXES; i++) {
-            const struct br_observed_order *o = &r->observed[part][i];
-            const struct {
-                const char *key;
-                struct br_value value;
-            } facts[] = {{"order", br_number(o->order.value)},
-                         {"low", br_number(o->order.low)},
-                         {"high", br_number(o->order.high)},
-                         {"theory", br_number(o->theory.order)},
-                         {"theory_highest", br_number(o->theory.highest)},
-                         {"theory_reason", br_text(o->theory.reason)},
-                         {"by", br_text(o->by)},
-                         {"remark", br_text(o->remark)}};
-            for (size_t f = 0; f < sizeof facts / sizeof *facts && o->asked; f++)
-                br_hide_fact(d, facts[f].value, NULL, "orders.%s.%s.%s", br_part_names[part],
-                             br_axis_letters[i], facts[f].key);
-        }
-    br_hide_fact(d, br_count(finest->at.n), NULL, "finest.n");
-    br_hide_fact(d, br_number(step_of(fitted, finest)), "s", "finest.k");
-    br_hide_fact(d, br_number(finest->error[BR_PART_TOTAL]), fitted->norm->unit, "finest.error");
-    br_hide_fact(d, br_number(relative_of(fitted, finest, BR_PART_TOTAL)), NULL, "finest.relative");
-    br_hide_fact(d, br_text(fitted->reference_kind->name), NULL, "fitted");
-    br_hide_fact(d, br_number(r->wall_seconds), "s", "wall_seconds");
 }
 
 void br_report_study(const struct br_report *r, struct br_document *d)
 {
     br_document_begin(d, r->name, "beamrate study", 2, r->caption);
-    put_answers(d, r);
+    br_put_study_answers(d, r);
 
     /* The orders of the answers, and those of each component. */
     const struct br_study *fitted = r->fitted;
-    const struct br_cell *finest = finest_of(fitted);
+    const struct br_cell *finest = br_finest_of(fitted);
     const double error = finest->error[BR_PART_TOTAL];
-    const double relative = relative_of(fitted, finest, BR_PART_TOTAL);
+    const double relative = br_relative_of(fitted, finest, BR_PART_TOTAL);
     char text[64];
     br_put_table(d, "observed", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (int i = 0; part_is_shown(r, part) && i < BR_AXES; i++) {
+        for (int i = 0; br_part_is_shown(r, part) && i < BR_AXES; i++) {
             const struct br_observed_order *observed = &r->observed[part][i];
             if (!observed->asked)
                 continue;
@@ -550,11 +179,11 @@ void br_report_study(const struct br_report *r, struct br_document *d)
         if (isfinite(relative))
             br_put_shown(d, "%.1e of the solution", relative);
         BR_PUT(d, br_count(finest->at.n), .heading = "measured from");
-        br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(fitted, finest));
+        br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, br_step_of(fitted, finest));
     }
 
     put_grids(d, r);
-    put_fits(d, r);
+    br_put_study_fits(d, r);
 
     br_put_table(d, "tips", "Tip at t = T", r->printed ? BR_FILES_ONLY : 0);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -568,10 +197,10 @@ void br_report_study(const struct br_report *r, struct br_document *d)
                .format = "%.10g");
     }
 
-    put_triangles(d, r);
+    br_put_triangles(d, r);
 
     put_cells(d, r);
-    put_notes(d, r);
+    br_put_study_notes(d, r);
 
     const char *line = fitted->events, *remark = r->study->scene->remark;
     if ((line && *line) || remark)
@@ -584,5 +213,5 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     if (remark)
         br_put_note(d, "%s", remark);
 
-    put_facts(d, r);
+    br_put_study_facts(d, r);
 }
