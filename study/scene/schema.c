@@ -90,7 +90,7 @@ const struct br_scene_key br_scene_keys[] = {
     {"contact", "stiffness", BR_KEY_NOT_NEGATIVE, BR_REQUIRED, 0, "N/m", AT(contact.stiffness),
      "c_H", "1000 N/m"},
 
-    {"friction", "law", BR_KEY_LAW, BR_REQUIRED, 0, "", 0, "tresca or coulomb", "coulomb"},
+    {"friction", "law", BR_KEY_LAW, BR_REQUIRED, 0, "", 0, "", "coulomb"},
     {"friction", "bound", BR_KEY_NOT_NEGATIVE, BR_REQUIRED, OF(BR_TRESCA), "N",
      AT(friction.coefficient), "c_V of Tresca's law", "100 N"},
     {"friction", "coefficient", BR_KEY_NOT_NEGATIVE, BR_OR_RATIO, OF(BR_COULOMB), "N/m",
@@ -101,6 +101,21 @@ const struct br_scene_key br_scene_keys[] = {
 };
 _Static_assert(sizeof br_scene_keys / sizeof *br_scene_keys <= BR_MOST_SCENE_KEYS,
                "struct br_scene_given has no room");
+
+char *br_law_names(unsigned laws, char text[BR_LAW_NAMES])
+{
+    text[0] = '\0';
+    for (enum br_friction_law law = 1; law < BR_FRICTION_LAWS; law++)
+        if (laws & OF(law))
+            br_append(text, BR_LAW_NAMES, "%s%s", *text ? " or " : "",
+                      br_friction_models[law].name);
+    return text;
+}
+
+const char *br_scene_key_help(const struct br_scene_key *key, char text[BR_LAW_NAMES])
+{
+    return key->kind == BR_KEY_LAW ? br_law_names(~0u, text) : key->help;
+}
 
 size_t br_scene_row(const char *path)
 {
@@ -225,7 +240,8 @@ enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct
     struct br_scene_value v = {r, key, node, key->unit, false};
     const bool product = key->kind == BR_KEY_LOAD && node->type == YAML_MAPPING_NODE;
     if (node->type != YAML_SCALAR_NODE && !product)
-        return BR_REFUSE_VALUE(&v, "found a list or a mapping, expected %s", key->help);
+        return BR_REFUSE_VALUE(&v, "found a list or a mapping, expected %s",
+                               br_scene_key_help(key, (char[BR_LAW_NAMES]){0}));
     switch (key->kind) {
     case BR_KEY_POSITIVE:
     case BR_KEY_NOT_NEGATIVE:
