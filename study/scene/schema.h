@@ -57,12 +57,9 @@ struct br_scene_given {
 /* Ends with a row whose name is NULL. */
 extern const struct br_scene_key br_scene_keys[];
 
-/* The names of laws of friction, 1u << law each, as "tresca or coulomb"; returns text (out). */
-enum { BR_LAW_NAMES = 200 };
-char *br_law_names(unsigned laws, char text[BR_LAW_NAMES]);
-
 /* What is expected of a key. text: workspace. */
-const char *br_scene_key_help(const struct br_scene_key *key, char text[BR_LAW_NAMES]);
+enum { BR_KEY_HELP = 200 };
+const char *br_scene_key_help(const struct br_scene_key *key, char text[BR_KEY_HELP]);
 
 /* The row of a key, as "axial.stiffness" or "density", which must exist. */
 size_t br_scene_row(const char *path);

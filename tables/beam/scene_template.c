@@ -19,9 +19,12 @@ static void write_default(FILE *out, const struct br_scene_key *key)
 {
     const bool expression =
         key->kind == BR_KEY_LOAD || key->kind == BR_KEY_INITIAL || key->kind == BR_KEY_HISTORY;
-    char laws[BR_LAW_NAMES];
-    if (key->laws)
-        fprintf(out, ", with law: %s", br_law_names(key->laws, laws));
+    const char *with = ", with law: ";
+    for (enum br_friction_law law = 0; law < BR_FRICTION_LAWS; law++)
+        if (key->laws & 1u << law) {
+            fprintf(out, "%s%s", with, br_friction_models[law].name);
+            with = " or ";
+        }
     if (must_be_given(key))
         return;
     if (key->kind == BR_KEY_SECTION)
@@ -49,7 +52,7 @@ static void write_key(FILE *out, const struct br_scene_key *key)
     const int width = fprintf(out, "%s%s%s:%s%s", *key->section ? "  " : "", live ? "" : "# ",
                               key->name, *key->example ? " " : "", key->example);
     fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "",
-            br_scene_key_help(key, (char[BR_LAW_NAMES]){0}), constraint);
+            br_scene_key_help(key, (char[BR_KEY_HELP]){0}), constraint);
     write_default(out, key);
     fputc('\n', out);
 }
