@@ -219,7 +219,7 @@ const struct br_paper_figure br_paper_figures[] = {
     {
         .number = 10,
         .example = 4,
-        .title = "Example 4: sum of the L2 norms depending on c_H and c_V",
+        .title = "Example 4: sum of the L2 norms over the coefficients of contact and friction",
         .says = "The stability of the solution is clearly observed.",
         .beside =
             "The paper says neither the ranges nor the time of its norms: shown are the largest sum "
