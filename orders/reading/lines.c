@@ -140,11 +140,12 @@ static char *row_end(char *line)
 
 static void add_line(struct br_line *line, char *text, size_t number)
 {
-    text += strspn(text, " \t");
+    const size_t indent = strspn(text, " \t");
+    text += indent;
     size_t length = strlen(text);
     while (length && text[length - 1] == ' ')
         text[--length] = '\0';
-    *line = (struct br_line){text, number, BR_LINE_EMPTY};
+    *line = (struct br_line){text, number, indent, BR_LINE_EMPTY};
     find_kind(line);
 }
 
