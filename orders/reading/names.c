@@ -49,7 +49,8 @@ static const struct {
     {"cells", 1.75, " grid mesh gridsize size volumes ncell ne "},
     {"k", 4, " k "},
     {"dt", 4,
-     " dt \xce\x94t \xe2\x88\x86t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "},
+     " dt \xce\x94t \xe2\x88\x86t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "
+     "deltatime timeincrement timestepwidth timesteplength "},
     {"steps", 4, " steps nt nsteps timesteps numsteps ntimesteps numberofsteps stepcount "},
 };
 
