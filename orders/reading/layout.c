@@ -94,6 +94,28 @@ static long measure(struct layout *l)
     return l->gain[best];
 }
 
+/* Whether all rows, by words, have the names of the first one: "dt 0.25  error 0.078". */
+static bool have_names(struct layout *l)
+{
+    const struct br_token *first = NULL;
+    size_t rows = 0;
+    for (size_t i = 0; i < l->lines; i++) {
+        char *room =
+            first ? l->room : br_store_take(&l->fields->store, BR_ROOM(l->line[i].text), 1);
+        if (l->line[i].kind != BR_LINE_TEXT || !room || look_at(l, i, room).count != l->width)
+            continue;
+        for (size_t c = 0; c < l->width && first; c++)
+            if (strcmp(first[c].name, l->token[c].name) != 0)
+                return false;
+        struct br_token *const copy =
+            first ? NULL : br_store_take(&l->fields->store, l->width, sizeof *copy);
+        if (copy)
+            first = memcpy(copy, l->token, l->width * sizeof *copy);
+        rows++;
+    }
+    return l->width > 1 && rows > 1 && rows == l->like[l->width];
+}
+
 /* Chooses the way. Where none has numbers, the first line tells the widest. Refuses lines that are
  * too wide, before anything takes time. */
 static enum br_status choose(struct layout *l, size_t first)
@@ -116,7 +138,8 @@ static enum br_status choose(struct layout *l, size_t first)
     }
     l->by = BR_BY_WORDS;
     l->fields->mark = '.';
-    if (rows < 2 && measure(l) > most && (!rows || l->like[l->width] > 1)) {
+    if (measure(l) > most &&
+        (rows < 2 ? !rows || l->like[l->width] > 1 : l->like[l->width] == rows && have_names(l))) {
         width = l->width;
     } else {
         l->by = (enum br_separator)(best / 2);

@@ -138,10 +138,23 @@ static char *row_end(char *line)
     return strchr(line, '&') ? strstr(line, "\\\\") : NULL;
 }
 
+/* Skips the name of a log before a line, "DEAL:2d::cells". */
+static char *skip_log_name(char *text)
+{
+    const size_t length =
+        strspn(text, ":_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    for (size_t i = length; i > 2 && isalpha((unsigned char)*text); i--)
+        if (strncmp(text + i - 2, "::", 2) == 0)
+            return text + i;
+    return text;
+}
+
 static void add_line(struct br_line *line, char *text, size_t number)
 {
-    const size_t indent = strspn(text, " \t");
-    text += indent;
+    const char *const begin = text;
+    text = skip_log_name(text + strspn(text, " \t"));
+    text += strspn(text, " \t");
+    const size_t indent = (size_t)(text - begin);
     size_t length = strlen(text);
     while (length && text[length - 1] == ' ')
         text[--length] = '\0';
