@@ -68,7 +68,7 @@ static bool stand_above_own(const struct br_line *heading, const struct br_span 
 bool br_names_above(const struct br_line *heading, const struct br_span *span, const bool *skipped,
                     size_t columns, char *room, const char **name)
 {
-    size_t last = columns;
+    size_t last = columns, end = 0;
     struct br_span word;
     for (size_t i = 1; i < columns; i++)
         if (span[i].begin < span[i - 1].end)
@@ -78,7 +78,8 @@ bool br_names_above(const struct br_line *heading, const struct br_span *span, c
     memset(name, 0, columns * sizeof *name);
     for (size_t at = 0; (word = next_word(heading, &at)).end;) {
         const size_t column = column_below(word, span, skipped, columns);
-        if (column == columns || (last < columns && column < last))
+        if (column == columns || (last < columns && column < last) ||
+            (column == last && word.begin > end + 1)) /* one name has single blanks */
             return false;
         if (column == last)
             room[-1] = ' ';
@@ -89,6 +90,7 @@ bool br_names_above(const struct br_line *heading, const struct br_span *span, c
         room[length] = '\0';
         room += length + 1;
         last = column;
+        end = word.end;
     }
     for (size_t i = 0; i < columns; i++)
         if (!name[i] != skipped[i])

@@ -104,8 +104,11 @@ static void find_kind(struct br_line *line)
                      ? BR_LINE_EMPTY
                  : sign ? BR_LINE_COMMENT
                         : BR_LINE_TEXT;
-    if (line->kind == BR_LINE_COMMENT)
-        line->text += sign + strspn(line->text + sign, " \t");
+    const size_t skipped = sign + strspn(line->text + sign, " \t");
+    if (line->kind == BR_LINE_COMMENT) {
+        line->text += skipped;
+        line->indent += skipped;
+    }
 }
 
 /* ---- lines ---- */
@@ -204,7 +207,9 @@ static void uncomment(struct br_line *line, size_t count)
             return;
     }
     for (size_t i = 0; i < count && comments > 2; i++) {
-        line[i].text += strspn(line[i].text, "#%! \t");
+        const size_t sign = strspn(line[i].text, "#%! \t");
+        line[i].text += sign;
+        line[i].indent += sign;
         find_kind(&line[i]);
     }
 }
