@@ -240,7 +240,8 @@ static const struct {
     {"N err  rate\n1000 1.0e-2 -\n2000 2.5e-3 2.0\n",
      "N|err|rate|\n1000|1.0e-2|-|\n2000|2.5e-3|2.0|\n"},
     {"h L2 error\n0.1 1e-2\n0.05 2e-3\n", ":t:2: found fewer than the 3 fields of the heading"},
-    {"h  a b\n0.1  1e-2\n0.05    2e-3\n", ":t:2: found fewer than the 3 fields of the heading"},
+    {"h  a b\n0.1  1e-2\n0.05    2e-3\n", "h|a b|\n0.1|1e-2|\n0.05|2e-3|\n"},
+    {"h  a  b\n0.1  1e-2\n0.05    2e-3\n", ":t:2: found fewer than the 3 fields of the heading"},
     /* names and numbers in turn, the name of a log */
     {"Euler\ndt 0.2  error 0.4  rate 1\ndt 0.1  error 0.2  rate 1\n",
      "dt|error|rate|\n0.2|0.4|1|\n0.1|0.2|1|\n1 title\n"},

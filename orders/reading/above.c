@@ -77,7 +77,11 @@ bool br_names_above(const struct br_line *heading, const struct br_span *span, c
         return false; /* one word each */
     memset(name, 0, columns * sizeof *name);
     for (size_t at = 0; (word = next_word(heading, &at)).end;) {
-        const size_t column = column_below(word, span, skipped, columns);
+        const size_t length = word.end - word.begin,
+                     column = column_below(word, span, skipped, columns);
+        const char *const text = heading->text + (word.begin - heading->indent);
+        if (strspn(text, ".,:;#*-") >= length)
+            continue; /* a sign alone is no name */
         if (column == columns || (last < columns && column < last) ||
             (column == last && word.begin > end + 1)) /* one name has single blanks */
             return false;
@@ -85,8 +89,7 @@ bool br_names_above(const struct br_line *heading, const struct br_span *span, c
             room[-1] = ' ';
         else
             name[column] = room;
-        const size_t length = word.end - word.begin;
-        memcpy(room, heading->text + (word.begin - heading->indent), length);
+        memcpy(room, text, length);
         room[length] = '\0';
         room += length + 1;
         last = column;
