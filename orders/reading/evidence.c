@@ -286,10 +286,11 @@ static bool stays(const struct view *v, size_t column)
     return c->most < 2 * c->least && fabs(fall_of(v, column)) < 0.02;
 }
 
-/* Whether no error falls with these sizes, and one grows from each to the next. */
-static bool grow_all(const struct view *v)
+/* 1: no error falls with these sizes, and one grows from each to the next; 0.5: only what has no
+ * name of an error does. */
+static double grow_all(const struct view *v)
 {
-    bool grow = false;
+    double grow = 0;
     for (size_t i = 0; i < v->roles->columns; i++) {
         const struct br_role_column *c = &v->roles->column[i];
         if (!may_have_errors(v, i) || c->least < 0 || c->is_value ||
@@ -298,8 +299,9 @@ static bool grow_all(const struct view *v)
             (c->by_hand && c->role != BR_ROLE_ERROR))
             continue;
         if (dips(v, i))
-            return false;
-        grow |= climbs(v, i);
+            return 0;
+        if (climbs(v, i))
+            grow = fmax(grow, c->kind == BR_KIND_ERROR ? 1 : 0.5);
     }
     return grow;
 }
@@ -394,7 +396,8 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     const struct br_resolution_column *s = candidate->size.states;
     const double d = candidate->size.dimension;
     find_rates(&v);
-    const bool rates = v.rates.columns, several = v.rates.compared > 1, grow = grow_all(&v),
+    const double grow = grow_all(&v);
+    const bool rates = v.rates.columns, several = v.rates.compared > 1,
                gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
                plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
                        !grows_in(&v, 3),
@@ -427,7 +430,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     candidate->agrees_with_rates = gives;
     candidate->misses_rates = rates && !gives;
     candidate->contradicts_rates = contradicts;
-    candidate->wrong_way = grow;
+    candidate->wrong_way = grow > 0;
 }
 
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
