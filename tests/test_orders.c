@@ -276,6 +276,31 @@ TEST(test_corners_of_a_floor)
     assert_true(left_out > 0);
 }
 
+static double floor_along_h(double h, double k)
+{
+    return k > 0 ? fmax(h * h, pow(4, -12)) : NAN;
+}
+
+static double floor_along_k(double h, double k)
+{
+    return floor_along_h(k, h);
+}
+
+/* A floor that only the longer lines can name has their name. */
+TEST(test_name_of_a_floor)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        find(turned ? grid_of(2, 16, floor_along_k) : grid_of(16, 2, floor_along_h), NULL);
+        for (size_t row = 0; row < 32; row++) {
+            const struct br_row_point *at = &found.orders.of[0].point[turned][row];
+            assert_int_equal(at->line->observed.point[at->index].flag,
+                             found.numbers.row[row].number[0] <= pow(4, -12) && at->index > 12
+                                 ? BR_FLAG_ROUND_OFF
+                                 : BR_FLAG_NONE);
+        }
+    }
+}
+
 static double larger_of_both(double h, double k)
 {
     return fmax(h * h, k * k);
