@@ -725,7 +725,7 @@ static const struct planted_bug planted_bugs[] = {
     {"milli_is_a_millionth", "units", "study/scene/units.c", "tests/test_units", "{\"m\", -3}",
      "{\"m\", -6}"},
     {"factor_of_the_unit_forgotten", "units", "study/scene/units.c", "tests/test_two_ways",
-     "q->wide = strtold(moved, NULL) * factor;", "q->wide = strtold(moved, NULL);"},
+     "q->wide = strtold(moved, NULL) * unit->factor;", "q->wide = strtold(moved, NULL);"},
     {"unit_of_an_expression_forgotten", "units", "study/scene/expressions.c", "tests/test_two_ways",
      "return parse_expression(v, applied, out);", "return parse_expression(v, text, out);"},
     {"section_bends_across_its_width", "index", "study/scene/engineering.c", "tests/test_two_ways",
