@@ -162,14 +162,12 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
     char word[MOST_UNIT];
     double value;
     struct br_unit unit;
-    const char *behind = br_read_number(text, &value);
-    const size_t length = !behind                ? 0
-                          : end && end >= behind ? (size_t)(end - behind)
-                                                 : strlen(behind);
-    if (!behind || (*behind && strchr(".,", *behind)) || length >= MOST_UNIT)
+    const char *found = br_read_number(text, &value), *behind = found ? found : "";
+    const size_t length = found && end && end >= found ? (size_t)(end - found) : strlen(behind);
+    if (!found || strspn(behind, ".,") || length >= MOST_UNIT)
         return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
                                br_yaml_text(v->node), v->unit,
-                               behind && *behind == ',' ? ", with a point before decimals" : "");
+                               *behind == ',' ? ", with a point before decimals" : "");
     snprintf(word, sizeof word, "%.*s", (int)length, behind);
     const enum br_status status = br_scene_read_unit(v, word + strspn(word, " "), &unit);
     if (status)
