@@ -7,6 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/each.h"
 #include "base/quote.h"
 #include "base/text.h"
 #include "build_info.h"
@@ -78,6 +79,6 @@ void br_provenance_fill(struct br_provenance *p, int threads)
         .command_line = br_command_line(),
         .machine = machine,
         .date = date,
-        .threads = threads,
+        .threads = br_threads(threads),
     };
 }

@@ -167,6 +167,20 @@ static bool find_cost(struct member *m, const char *name, enum br_cost kind)
     return best > NONE;
 }
 
+static enum br_status refuse_cost(const struct member *m, const char *name, struct br_error *err)
+{
+    enum { MOST = 16 };
+    const struct br_numbers *n = &m->source->numbers;
+    const char *names[MOST];
+    char expected[BR_EXPECTED];
+    size_t count = 0;
+    for (; count < n->costs && count < MOST; count++)
+        names[count] = n->quantity[n->quantities + count].name;
+    return br_fail(
+        err, BR_BAD_INPUT, "%s%s: --cost: found no cost '%s', %s", m->source->path, m->of, name,
+        count ? br_expected(name, names, count, expected) : "expected the name of a column");
+}
+
 static enum br_status choose_cost(struct members *all, struct br_error *err)
 {
     static const enum br_cost usual[] = {BR_COST_CPU, BR_COST_WALL, BR_COST_DOFS,
@@ -182,13 +196,13 @@ static enum br_status choose_cost(struct members *all, struct br_error *err)
     }
     for (const struct member *m = all->list; m < all->list + all->count; m++) {
         const struct br_numbers *n = &m->source->numbers;
-        if (named ? !m->costs : !n->costs)
+        if (named && !m->costs)
+            return refuse_cost(m, all->cost, err);
+        if (!named && !n->costs)
             return br_fail(err, BR_BAD_INPUT,
-                           named ? "%s%s: --cost: found no cost '%s'"
-                                 : "%s%s: found no column of a cost%s, expected one like seconds, "
-                                   "cpu, wall, dofs, iterations or memory; --cost NAME names "
-                                   "another one",
-                           m->source->path, m->of, all->cost);
+                           "%s%s: found no column of a cost, expected one like seconds, cpu, wall, "
+                           "dofs, iterations or memory; --cost NAME names another one",
+                           m->source->path, m->of);
         if (found && br_is_logarithm(n->quantity[m->cost].name))
             return br_fail(err, BR_BAD_INPUT, "%s: %s has logarithms: give the numbers themselves",
                            m->source->path, n->quantity[m->cost].name);

@@ -200,11 +200,8 @@ static enum br_status read_number(struct br_scene_value *v)
 enum br_status br_scene_keep_text(const struct br_scene_value *v, const char *text)
 {
     char **copy = br_scene_target(v);
-    *copy = br_allocate(strlen(text) + 1, 1);
-    if (!*copy)
-        return br_no_memory(v->r->yaml.err, "the scene");
-    strcpy(*copy, text);
-    return BR_OK;
+    *copy = strdup(text);
+    return *copy ? BR_OK : br_no_memory(v->r->yaml.err, "the scene");
 }
 
 /* ---- values of all kinds ---- */
