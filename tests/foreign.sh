@@ -83,8 +83,8 @@ expect 0 "p = 1.58 (2-D assumed; --dimension 1 gives 0.79, 3 gives 2.38), GCI" \
     beamrate orders cells.csv --value cd
 expect 0 "p = 1.58, GCI" beamrate orders cells.csv --value cd --dimension 2
 cp units/orders.gp whole
-says "mesh size h, m" "the picture"
-says "drag, N" "the picture"
+says "mesh size h (m)" "the picture"
+says "drag (N)" "the picture"
 has python3 && study heat 2
 has FreeFem++ && study freefem 4
 has octave-cli && study pendulum 1
