@@ -131,12 +131,10 @@ enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br
 struct br_orders_line {
     enum br_axis axis;
     char at[64]; /* "k = 0.01"; "": the other axis is not refined, or tied to this one */
-    size_t *row; /* indices of rows, from coarse to fine: observed.points of them, for a value one
-                    more; owned */
-    struct br_case observed; /* for a value: its differences from the next finer one */
+    struct br_case observed; /* of a value, the differences from the next finer one; then the
+                                finest value stands behind its points */
     /* For a value, from all its rows that have a number: */
     struct br_limits limits;
-    double *finest_of; /* the finest size of each of its triples, as it is stated; owned */
 };
 
 /* The position of a row on a line; line: NULL, it is on none. */
@@ -211,11 +209,9 @@ enum br_status br_orders_add_differences(const struct br_orders *orders,
 enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
                                  struct br_case *c, struct br_error *err);
 
-/* Whether a row has an error that a joint fit can take; half a unit of its last digit, 0 where it
- * was not printed. */
-bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row);
-double br_orders_rounding(const struct br_orders *orders, size_t quantity,
-                          const struct br_numbers_row *row);
+/* The number of a row as a point, before it has a size along a line, its label and, of a value, a
+ * difference from a finer one. */
+struct br_point br_orders_point(const struct br_orders *orders, size_t quantity, size_t row);
 
 /* The case of a grid of errors in an axis: the order of the joint fit, with the error at each size
  * that is at the finest size of the other axis. Fails with BR_NO_MEMORY; free its points even

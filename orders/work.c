@@ -374,12 +374,6 @@ static enum br_status check_growth(const struct br_work_precision *w, const stru
 
 enum line { COST_OVER_SIZE, ERROR_OVER_SIZE, ERROR_OVER_COST };
 
-static int by_size(const void *a, const void *b)
-{
-    const struct br_point *x = a, *y = b;
-    return (x->z < y->z) - (x->z > y->z);
-}
-
 /* The order along the points of a program. Costs are without its start, and without the sizes that
  * are mostly that; over costs, of the points of its own front. */
 static enum br_status find_order(struct br_work_program *program, enum line what,
@@ -404,7 +398,7 @@ static enum br_status find_order(struct br_work_program *program, enum line what
         else if (what == ERROR_OVER_COST && !small && p[i].own)
             at[taken++] = (struct br_point){.z = 1 / cost, .error = p[i].error};
     }
-    qsort(at, taken, sizeof *at, by_size);
+    qsort(at, taken, sizeof *at, br_by_size);
     const enum br_status status = br_line_order_find(at, taken, &found, err);
     *order = br_order_determined(&found.order) ? found.order : (struct br_estimate){NAN, NAN, NAN};
     for (size_t i = 0; i < count && !status && what == COST_OVER_SIZE; i++)

@@ -334,15 +334,15 @@ static void say_unstable(struct br_document *d, const struct br_orders_line *lin
 }
 
 /* Values that go up and down, or whose differences grow. */
-static void say_restless(struct br_document *d, const struct br_orders *o,
-                         const struct br_quantity_orders *of, const struct br_orders_line *line)
+static void say_restless(struct br_document *d, const struct br_orders_line *line)
 {
     const enum br_sequence sequence = line->limits.limit.sequence;
+    const struct br_point *point = line->observed.point;
     double v[BR_MOST_SIZES + 1];
     size_t count = 0, turns = 0;
-    for (size_t i = 0; i < line->observed.points + 1; i++) {
-        v[count] = o->numbers->row[line->row[i]].number[of->quantity];
-        count += isfinite(v[count]) ? 1 : 0;
+    for (const struct br_point *p = point; p <= point + line->observed.points; p++) {
+        v[count] = p->value;
+        count += isfinite(p->value) ? 1 : 0;
     }
     for (size_t i = 2; i < count; i++)
         turns += (v[i] - v[i - 1]) * (v[i - 1] - v[i - 2]) < 0;
@@ -367,7 +367,7 @@ static void say_advice(struct br_document *d, const struct br_orders *o,
     if (br_orders_is_grid(o) || isfinite(line->observed.factor.low))
         return;
     if (br_quantity_of(o, of)->is_value)
-        say_restless(d, o, of, line);
+        say_restless(d, line);
     else if (!none)
         say_unstable(d, line);
     else if (!br_orders_stays(line))
@@ -526,12 +526,13 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
             const struct br_orders_line *line = &o->of[i].line[l];
             for (size_t t = 0; t < line->limits.triples && line->limits.triples > 1; t++) {
                 const struct br_gci *g = &line->limits.triple[t];
+                const double finest = o->numbers->row[g->row].given[line->axis];
                 BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
                            br_text(br_axis_letters[line->axis]), br_text(line->at),
-                           br_number(line->finest_of[t]));
-                br_put_shown(d, "%s",
-                             br_numbers_text(o->numbers->column[line->axis], line->finest_of[t],
-                                             (char[32]){0}));
+                           br_number(finest));
+                br_put_shown(
+                    d, "%s",
+                    br_numbers_text(o->numbers->column[line->axis], finest, (char[32]){0}));
                 BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
                              br_number(g->asymptotic), br_number(br_gci_limited(g, o->formal)),
                              br_text(br_sequence_text(g->sequence)));

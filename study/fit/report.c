@@ -175,8 +175,8 @@ static void name_source(struct br_observed_order *o, const struct br_study *s,
 
 /* Keeps the finest errors of the answer's line. Those of a joint fit lie on its model, which the
  * errors of the other axis bend. */
-static void keep_points(struct br_observed_order *o, const struct br_numbers *n,
-                        const struct br_quantity_orders *of, enum br_axis axis)
+static void keep_points(struct br_observed_order *o, const struct br_quantity_orders *of,
+                        enum br_axis axis)
 {
     const struct br_orders_line *line = of->answer[axis].line;
     const size_t points = line ? line->observed.points : 0;
@@ -186,10 +186,9 @@ static void keep_points(struct br_observed_order *o, const struct br_numbers *n,
     for (size_t i = 0; i < o->points; i++) {
         const double middle = sqrt(o->point[0].z * o->point[o->points - 1].z);
         struct br_point *p = &o->point[i];
-        if (o->joint) {
-            const struct br_numbers_row *row = &n->row[line->row[first + i]];
-            p->fit = br_joint_band(&of->joint, axis, middle, row->z, row->against);
-        } else if (isnan(o->order.value)) {
+        if (o->joint)
+            p->fit = br_joint_band(&of->joint, axis, middle, p->x, p->ref);
+        else if (isnan(o->order.value)) {
             p->flag = p->lost ? BR_FLAG_NONE : p->flag;
             p->fit = o->order;
         }
@@ -207,7 +206,7 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
     o->order = a->order;
     o->joint = a->joint && !a->open;
     name_source(o, r->fitted, compared, of, axis);
-    keep_points(o, orders->numbers, of, axis);
+    keep_points(o, of, axis);
     if (!a->open)
         compare(o, &l);
     else if (axis == BR_AXIS_SPACE && !compared)
