@@ -111,7 +111,6 @@ void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_r
                      enum br_axis axis, char text[64]);
 
 /* "n = 8, k = 0.1" */
-enum { BR_CELL_NAME = 2 * 64 + 2 };
 void br_numbers_name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
                           char text[BR_CELL_NAME]);
 

@@ -418,7 +418,7 @@ TEST(paper_is_beside_the_cheapest)
     struct br_scene scene = br_test_bundled("example2");
     struct br_trade *t = calloc(1, sizeof *t);
     struct br_trial trial[MADE];
-    struct br_work_point point[MADE];
+    struct br_point point[MADE];
     assert_non_null(t);
     MUST(br_named_methods_read("euler,bdf2", &t->methods, &err));
     t->request = br_trial_request_default(&scene);

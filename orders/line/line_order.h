@@ -15,6 +15,8 @@
 #include "orders/estimate.h"
 #include "orders/line/laws.h"
 
+enum { BR_CELL_NAME = 2 * 64 + 2 /* "n = 40, k = 0.1" */ };
+
 /* One number of a line that is refined in one quantity z (h/L or k/T), or of a grid: the one form
  * in which estimators, verdicts, reports and pictures take it. An error against a finer solution is
  * C (z^p - z_against^p). */
@@ -33,12 +35,18 @@ struct br_point {
     /* Of a case (case.h): */
     struct br_resolution at, against; /* against: zeros for the continuous problem */
     double constant;                  /* C of e = C (z^order - z_against^order) */
-    char label[64];                   /* "n = 40", for messages */
+    char label[BR_CELL_NAME];         /* "n = 40", for messages */
     bool used;                        /* for the order: it is not left out */
     bool lost;              /* the search for the order left it out, and nothing before it */
     char failure[256];      /* of the march; "": it went well */
     struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
                                the order is that of a joint fit, which is no line */
+    /* Of what a digit costs (work.h): */
+    size_t program;         /* its place in a list */
+    double cost, cost_half; /* with half the width of its 95 % interval; 0: it does not scatter */
+    double effort;          /* of equal costs the smaller effort is cheaper */
+    bool is_start;          /* its cost is mostly the start of the program */
+    bool front, own;        /* it is on the Pareto front of all; on that of its program */
 };
 
 /* Compares points, for qsort: from coarse to fine. */
