@@ -223,8 +223,7 @@ enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity
         status = br_no_memory(err, "the orders");
     size_t rows = 0;
     for (size_t i = 0; i < numbers->rows && !status; i++)
-        if (!(numbers->row[i].absent && numbers->row[i].absent[of->quantity]) &&
-            numbers->row[i].out[of->quantity] != BR_FLAG_BY_HAND)
+        if (br_has_part(numbers->row[i].out[of->quantity]))
             sorted[rows++] =
                 (struct line_row){alone ? 0 : numbers->row[i].z[!axis], numbers->row[i].z[axis], i};
     if (!status)

@@ -49,7 +49,6 @@ struct br_numbers_row {
     double *number;          /* by quantity; NaN: missing; owned */
     double *deviation; /* the standard deviation of each, where it is a mean; NaN, or no array:
                           it is none; within `number` */
-    bool *absent;      /* by quantity: its study has no such row; NULL: none lacks; owned */
     size_t repeat;     /* of a run: which of its cell; of a mean: how many; 0: one run */
     size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not

@@ -311,7 +311,7 @@ static void take_points(struct br_work_precision *w, const struct member *m)
     p->point = w->point + w->points;
     snprintf(p->name, sizeof p->name, "%s%.99s", m->source->name, m->of);
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
-        if (row->absent && row->absent[m->error])
+        if (row->out[m->error] == BR_FLAG_ABSENT)
             continue;
         struct br_point *at = &w->point[w->points];
         *at = (struct br_point){.row = (size_t)(row - n->row),

@@ -71,21 +71,6 @@ void br_point_add(struct br_series *s, double x, double y, const char *flag)
         s->point[s->count++] = (struct br_figure_point){x, y, flag};
 }
 
-struct br_fitted_series br_fitted_series_add(struct br_figure *f, const char *title)
-{
-    return (struct br_fitted_series){.area = br_series_add(f, BR_PEN_AREA, "%s", title),
-                                     .line = br_series_add(f, BR_PEN_LINE, "%s", title),
-                                     .marks = br_series_add(f, BR_PEN_MARKS, "%s", title)};
-}
-
-void br_fitted_point_add(const struct br_fitted_series *s, double x, double y, const char *flag,
-                         double fit, double low)
-{
-    br_point_add(s->marks, x, y, flag);
-    br_point_add(s->line, x, fit, NULL);
-    br_point_add(s->area, x, low, NULL);
-}
-
 static int compare(const void *a, const void *b)
 {
     const struct br_figure_point *p = a, *q = b;

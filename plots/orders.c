@@ -90,6 +90,25 @@ static void add_by_hand(struct br_series *marks, const struct br_orders *o,
     }
 }
 
+struct br_series *br_errors_add(struct br_figure *f, const char *title,
+                                const struct br_point *point, size_t count, bool fitted)
+{
+    struct br_series *area = fitted ? br_series_add(f, BR_PEN_AREA, "%s", title) : NULL;
+    struct br_series *line = fitted ? br_series_add(f, BR_PEN_LINE, "%s", title) : NULL;
+    struct br_series *marks = br_series_add(f, fitted ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", title);
+    for (const struct br_point *p = point; p < point + count; p++) {
+        br_point_add(marks, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
+                     p->flag ? br_flag_name(p->flag) : NULL);
+        if (fitted) {
+            br_point_add(line, p->z, p->fit.value, NULL);
+            br_point_add(area, p->z, p->fit.low, NULL);
+        }
+    }
+    for (size_t i = count; i-- > 0 && fitted;)
+        br_point_add(area, point[i].z, point[i].fit.high, NULL);
+    return marks;
+}
+
 /* The errors, with the line of their order and its band; those of a joint fit, which is no line,
  * are joined. Returns the errors. */
 static const struct br_series *add_line(struct br_figure *f, const struct br_orders *o,
@@ -100,24 +119,10 @@ static const struct br_series *add_line(struct br_figure *f, const struct br_ord
     const struct br_case *c = &line->observed;
     const bool fitted = c->points && isfinite(c->point[0].fit.value);
     br_quoted(name, sizeof name, &br_for_markup, title_of(o, of, title));
-    struct br_fitted_series s = {0};
-    if (fitted)
-        s = br_fitted_series_add(f, name);
-    else
-        s.marks = br_series_add(f, BR_PEN_CURVE, "%s", name);
-    for (const struct br_point *p = c->point; p < c->point + c->points; p++) {
-        const double error = p->flag == BR_FLAG_FAILED ? (double)NAN : p->error;
-        const char *flag = p->flag ? br_flag_name(p->flag) : NULL;
-        if (fitted)
-            br_fitted_point_add(&s, p->z, error, flag, p->fit.value, p->fit.low);
-        else
-            br_point_add(s.marks, p->z, error, flag);
-    }
-    for (size_t i = c->points; i-- > 0 && fitted;)
-        br_point_add(s.area, c->point[i].z, c->point[i].fit.high, NULL);
-    add_by_hand(s.marks, o, of, line);
-    br_series_sort(s.marks);
-    return s.marks;
+    struct br_series *marks = br_errors_add(f, name, c->point, c->points, fitted);
+    add_by_hand(marks, o, of, line);
+    br_series_sort(marks);
+    return marks;
 }
 
 /* "mesh size h = 1/n"; a size has the unit of the source, too. */

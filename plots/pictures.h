@@ -11,6 +11,7 @@
 #include "base/status.h"
 
 struct br_orders;
+struct br_point;
 struct br_check;
 struct br_work_precision;
 
@@ -109,15 +110,6 @@ __attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_
                                                                       const char *title, ...);
 void br_point_add(struct br_series *series, double x, double y, const char *flag);
 
-/* Marks, a line that was fitted to them, and its band, to the last panel. Add each point, and then
- * the upper end of the band, from the last point to the first. Numbers may be NaN. */
-struct br_fitted_series {
-    struct br_series *area, *line, *marks;
-};
-struct br_fitted_series br_fitted_series_add(struct br_figure *figure, const char *title);
-void br_fitted_point_add(const struct br_fitted_series *series, double x, double y,
-                         const char *flag, double fit, double low);
-
 /* Sorts the points by x, then by y; stairs: a Pareto front, of the points whose y falls. */
 void br_series_sort(struct br_series *series);
 void br_series_stairs(struct br_series *series);
@@ -155,6 +147,11 @@ void br_figure_write_script(FILE *out, const struct br_figure *figure);
  * br_figure_check reports lack of memory. */
 
 /* ---- orders.c: any program's errors ---- */
+
+/* Adds errors to the last panel, with the line that was fitted to them and its band, or as a curve;
+ * returns their marks. */
+struct br_series *br_errors_add(struct br_figure *figure, const char *title,
+                                const struct br_point *point, size_t count, bool fitted);
 
 /* A panel over the size of elements, and one over that of steps. Each quantity has a line, at the
  * finest size of the other kind. */

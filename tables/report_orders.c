@@ -188,7 +188,7 @@ static void say_cells_left_out(struct br_document *d, const struct br_orders *o,
                 of->joint.points + of->joint.left_out);
     for (size_t i = 0; i < o->numbers->rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[i];
-        if (of->flag[i] == BR_FLAG_NONE || of->flag[i] == BR_FLAG_BY_HAND)
+        if (of->flag[i] == BR_FLAG_NONE || !br_has_part(of->flag[i]))
             continue;
         name_cell(d, o, row, row, found);
         if (found++ < MOST_CELLS)
@@ -409,11 +409,11 @@ static void put_number(struct br_document *d, const struct br_orders *o,
     const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
     const double found = r->number[of->quantity];
-    const bool absent = r->absent && r->absent[of->quantity];
-    const char *left_out = r->failure || (isnan(found) && !absent) ? br_flag_name(BR_FLAG_FAILED)
-                           : !absent && r->out[of->quantity] == BR_FLAG_BY_HAND
-                               ? br_flag_name(BR_FLAG_BY_HAND)
-                               : "";
+    const enum br_flag out = r->out[of->quantity];
+    const bool failed = r->failure || (isnan(found) && out != BR_FLAG_ABSENT);
+    const char *left_out = br_flag_name(failed             ? BR_FLAG_FAILED
+                                        : br_has_part(out) ? BR_FLAG_NONE
+                                                           : out);
     char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
     if (number)
         snprintf(prefix, sizeof prefix, "%zu ", number);

@@ -283,8 +283,7 @@ static void need_finest(const struct br_numbers *n, size_t quantity, enum br_axi
     const struct br_numbers_row *finest = NULL;
     char name[BR_CELL_NAME];
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++)
-        if (!(row->absent && row->absent[quantity]) && row->out[quantity] != BR_FLAG_BY_HAND &&
-            (!finest || row->z[axis] <= finest->z[axis]))
+        if (br_has_part(row->out[quantity]) && (!finest || row->z[axis] <= finest->z[axis]))
             finest = row;
     if (c->verdict != BR_PASS || (!finest->failure && isfinite(finest->number[quantity])))
         return;

@@ -139,19 +139,6 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
 
 /* ---- the orders ---- */
 
-/* The errors, the fitted line, and its band. Returns the errors. */
-static const struct br_series *add_order(const struct br_observed_order *o, const char *name,
-                                         struct br_figure *f)
-{
-    const struct br_fitted_series s = br_fitted_series_add(f, name);
-    for (const struct br_point *p = o->point; p < o->point + o->points; p++)
-        br_fitted_point_add(&s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
-                            p->flag ? br_flag_name(p->flag) : NULL, p->fit.value, p->fit.low);
-    for (size_t i = o->points; i-- > 0;)
-        br_point_add(s.area, o->point[i].z, o->point[i].fit.high, NULL);
-    return s.marks;
-}
-
 /* "error, L2 norm (m^{3/2})", or "difference, L2 norm ..." where that is what shows the orders. */
 static void name_errors(const struct br_report *r, enum br_axis axis, enum br_part parts,
                         struct br_panel *p)
@@ -184,7 +171,8 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     for (size_t i = 0; i < total->points; i++)
         br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
     for (enum br_part part = 0; part < parts; part++)
-        line[part] = add_order(&r->observed[part][axis], br_part_names[part], f);
+        line[part] = br_errors_add(f, br_part_names[part], r->observed[part][axis].point,
+                                   r->observed[part][axis].points, true);
     for (enum br_part part = 0; part < parts; part++)
         br_slope_add(f, line[part], r->observed[part][axis].theory.formal);
 }
