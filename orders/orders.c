@@ -96,11 +96,8 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     }
     /* Rows are only left out, so the same number means the same rows. */
     if (!status && !(count > 0 && count == of->joint.points + of->joint.left_out)) {
-        if (numbers->fitted)
-            of->joint = *numbers->fitted;
-        else
-            status = br_joint_fit_solve(point, count, !numbers->powers, numbers->observer,
-                                        &of->joint, err);
+        status =
+            br_joint_fit_solve(point, count, !numbers->powers, numbers->observer, &of->joint, err);
         for (size_t i = 0; i < count && !status; i++)
             of->flag[point[i].row] = point[i].flag;
     }

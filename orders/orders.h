@@ -78,11 +78,10 @@ struct br_numbers {
                     rows that are out, without a floor: joint fits have no other laws, lines leave
                     no row out of them, and only the two finest lines along an axis of known theory
                     have an order */
-    const struct br_joint_fit *fitted; /* their joint fit, where it is known; NULL: it is not */
-    double dimension;                  /* of the mesh, where unknowns or cells are counted */
-    bool assumed;                      /* nobody stated it */
-    bool samples;                      /* n counts samples, and not elements */
-    bool all_needed;                   /* a verdict fails where a number is missing */
+    double dimension;      /* of the mesh, where unknowns or cells are counted */
+    bool assumed;          /* nobody stated it */
+    bool samples;          /* n counts samples, and not elements */
+    bool all_needed;       /* a verdict fails where a number is missing */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a

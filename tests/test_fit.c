@@ -67,6 +67,7 @@ static void fill(const struct truth *t, double noise, uint64_t seed)
 static void fit(enum br_part part)
 {
     struct br_error err = {0};
+    br_fits_clear(&fits);
     MUST(br_fit(&g.study, part, &fits, &err));
 }
 

@@ -243,32 +243,15 @@ static enum br_status set_differences(const struct br_study *s, enum br_part par
     return BR_OK;
 }
 
-static enum br_status find_orders(struct br_report *r, enum br_part part, struct br_error *err)
-{
-    struct br_numbers *n = &r->numbers[part];
-    enum br_status status = br_fit_numbers(r->fitted, part, n, err);
-    n->fitted = &r->fits[part].joint;
-    for (enum br_axis a = 0; a < BR_AXES && !status; a++) {
-        n->quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
-        status = set_differences(r->compared[a], part, a, n, err);
-    }
-    return status ? status : br_orders_find(n, 0, &r->orders[part], err);
-}
-
 static enum br_status ask(struct br_report *r, enum br_part part, enum br_axis axis,
                           struct br_observed_order *o, struct br_error *err)
 {
-    struct br_orders *orders = &r->orders[part];
-    enum br_status status = BR_OK;
-    if (!orders->of)
-        status = find_orders(r, part, err);
-    else if (!set_differences(r->compared[axis], part, axis, &r->numbers[part], err))
-        status = br_orders_renew(orders, axis, err);
-    else
-        status = err->status;
-    if (!status)
-        take_answer(o, r, orders, axis);
-    return status;
+    struct br_fits *fits = &r->fits[part];
+    if (set_differences(r->compared[axis], part, axis, &fits->numbers, err) ||
+        br_orders_renew(&fits->orders, axis, err))
+        return err->status;
+    take_answer(o, r, &fits->orders, axis);
+    return BR_OK;
 }
 
 bool br_observed_settles(const struct br_observed_order *o)
@@ -329,10 +312,8 @@ void br_report_clear(struct br_report *r)
 {
     free(r->printed);
     r->printed = NULL;
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        br_orders_clear(&r->orders[part]);
-        br_numbers_clear(&r->numbers[part]);
-    }
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        br_fits_clear(&r->fits[part]);
 }
 
 double br_report_ratio(const struct br_report *r, size_t cell)
