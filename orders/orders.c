@@ -156,7 +156,6 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     c->factor = (struct br_estimate){exp(by->order.value), exp(by->order.low), exp(by->order.high)};
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].flag = by->point[i].flag;
-        c->point[i].used = by->point[i].used;
         c->point[i].lost = false;
     }
     c->used = by->used;
@@ -295,7 +294,7 @@ static bool falls(const struct br_case *c)
     bool smaller = true;
     double before = INFINITY;
     for (size_t i = 0; i < c->points; i++)
-        if (c->point[i].used || (c->point[i].lost && !br_order_determined(&c->order))) {
+        if (!c->point[i].flag || (c->point[i].lost && !br_order_determined(&c->order))) {
             smaller = smaller && c->point[i].error < before;
             before = c->point[i].error;
         }

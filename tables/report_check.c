@@ -63,10 +63,7 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
                               p->against.n       ? against
                               : p->z_against > 0 ? "the next finer one"
                                                  : "the solution",
-                              p->error, constant,
-                              p->flag    ? ", left out: "
-                              : !p->used ? ", coarser than the errors that are used"
-                                         : "",
+                              p->error, constant, p->flag ? ", left out: " : "",
                               br_flag_name(p->flag));
     }
 }
@@ -215,7 +212,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
                            br_text(c->measure), br_text(c->part), br_if(p->at.n, br_count(p->at.n)),
                            br_if(p->at.n, br_count(p->at.steps)), br_count(p->against.n),
                            br_count(p->against.steps), br_number(p->error), br_number(p->constant),
-                           br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
+                           br_truth(!p->flag), br_text(br_flag_name(p->flag)), br_text(p->failure),
                            br_text(p->label));
         }
 

@@ -36,7 +36,6 @@ struct br_point {
     struct br_resolution at, against; /* against: zeros for the continuous problem */
     double constant;                  /* C of e = C (z^order - z_against^order) */
     char label[BR_CELL_NAME];         /* "n = 40", for messages */
-    bool used;                        /* for the order: it is not left out */
     bool lost;              /* the search for the order left it out, and nothing before it */
     char failure[256];      /* of the march; "": it went well */
     struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
