@@ -85,8 +85,8 @@ static void take_difference(struct br_point *point, size_t points, size_t i, enu
     p->flag = flag_of(p, out);
 }
 
-static enum br_status begin_case(const struct br_orders *o, size_t quantity, enum br_axis axis,
-                                 size_t points, struct br_case *c, struct br_error *err)
+enum br_status br_orders_begin_case(const struct br_orders *o, size_t quantity, enum br_axis axis,
+                                    size_t points, struct br_case *c, struct br_error *err)
 {
     const struct br_quantity *q = &o->numbers->quantity[quantity];
     *c = (struct br_case){
@@ -134,7 +134,7 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
 {
     struct br_case *c = &line->observed;
     const bool is_value = o->numbers->quantity[quantity].is_value;
-    if (begin_case(o, quantity, line->axis, rows - is_value, c, err))
+    if (br_orders_begin_case(o, quantity, line->axis, rows - is_value, c, err))
         return err->status;
     for (size_t i = 0; i < rows; i++) {
         c->point[i] = br_orders_point(o, quantity, sorted[i].row);
@@ -152,25 +152,11 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
     return status;
 }
 
-enum br_status br_orders_add_differences(const struct br_orders *o, struct br_quantity_orders *of,
-                                         enum br_axis axis, struct br_error *err)
-{
-    const struct br_differences *d = &br_quantity_of(o, of)->differences[axis];
-    struct br_orders_line *line = &of->differences[axis];
-    line->axis = axis;
-    if (!d->point)
-        return BR_OK;
-    if (begin_case(o, of->quantity, axis, d->points, &line->observed, err))
-        return err->status;
-    memcpy(line->observed.point, d->point, d->points * sizeof *d->point);
-    return br_case_observe(&line->observed, BR_ORDERS_LEAST, err);
-}
-
 enum br_status br_orders_joint_case(const struct br_orders *o, const struct br_quantity_orders *of,
                                     enum br_axis axis, struct br_case *c, struct br_error *err)
 {
     const struct br_numbers *n = o->numbers;
-    if (begin_case(o, of->quantity, axis, n->rows, c, err))
+    if (br_orders_begin_case(o, of->quantity, axis, n->rows, c, err))
         return err->status;
     c->points = 0;
     for (size_t i = 0; i < n->rows; i++) {

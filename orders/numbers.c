@@ -105,8 +105,6 @@ void br_numbers_clear(struct br_numbers *numbers)
         free(numbers->quantity[i].name);
         free(numbers->quantity[i].unit);
         free(numbers->quantity[i].window);
-        for (int axis = 0; axis < BR_AXES; axis++)
-            free(numbers->quantity[i].differences[axis].point);
     }
     for (size_t i = 0; i < numbers->rows; i++) {
         free(numbers->row[i].number);

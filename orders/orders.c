@@ -414,8 +414,6 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = br_orders_add_lines(o, of, (enum br_axis)axis, err);
-    for (int axis = 0; axis < BR_AXES && !status; axis++)
-        status = br_orders_add_differences(o, of, (enum br_axis)axis, err);
     if (!status)
         status = observe_all(o, of, err);
     for (int axis = 0; axis < BR_AXES && !status; axis++)
@@ -457,16 +455,24 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal, s
     return status;
 }
 
-enum br_status br_orders_renew(struct br_orders *o, enum br_axis axis, struct br_error *err)
+enum br_status br_orders_begin_differences(const struct br_orders *o, struct br_quantity_orders *of,
+                                           enum br_axis axis, size_t points, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (struct br_quantity_orders *of = o->of; of < o->of + o->count && !status; of++) {
-        free(of->differences[axis].observed.point);
-        of->differences[axis] = (struct br_orders_line){0};
-        status = br_orders_add_differences(o, of, axis, err);
-        of->answer[axis] = find_answer(o, of, axis);
-    }
-    return status;
+    struct br_orders_line *line = &of->differences[axis];
+    free(line->observed.point);
+    *line = (struct br_orders_line){.axis = axis};
+    return points ? br_orders_begin_case(o, of->quantity, axis, points, &line->observed, err)
+                  : BR_OK;
+}
+
+enum br_status br_orders_renew(const struct br_orders *o, struct br_quantity_orders *of,
+                               enum br_axis axis, struct br_error *err)
+{
+    struct br_case *c = &of->differences[axis].observed;
+    if (c->point && br_case_observe(c, BR_ORDERS_LEAST, err))
+        return err->status;
+    of->answer[axis] = find_answer(o, of, axis);
+    return BR_OK;
 }
 
 void br_orders_clear(struct br_orders *o)

@@ -16,13 +16,6 @@
 
 /* ---- numbers: they come from a source (request.h) ---- */
 
-/* Differences of successive sizes of one axis, from coarse to fine, at one size of the other axis,
- * whose error they do not have. What br_case_observe needs of each point is set. */
-struct br_differences {
-    struct br_point *point; /* NULL: there are none; owned */
-    size_t points;
-};
-
 /* A column of numbers that is studied. */
 struct br_quantity {
     char *name;    /* owned */
@@ -35,7 +28,6 @@ struct br_quantity {
     /* What a source knows besides; zeros: nothing. */
     double formal[BR_AXES]; /* the order of theory: errors that do not fall, or fall slowly and
                                unevenly, show none then */
-    struct br_differences differences[BR_AXES];
 };
 
 /* One run of the program that made the numbers. */
@@ -189,17 +181,24 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
-/* Finds the answers along an axis anew, after its differences have changed in the numbers. */
-enum br_status br_orders_renew(struct br_orders *orders, enum br_axis axis, struct br_error *err);
+/* Makes room for differences of successive sizes of one axis, from coarse to fine, at one size of
+ * the other axis, whose error they do not have: points of of->differences[axis] (0: there are
+ * none), of which the caller sets what br_case_observe needs. br_orders_renew then finds the answer
+ * along that axis anew. Both fail with BR_NO_MEMORY. */
+enum br_status br_orders_begin_differences(const struct br_orders *orders,
+                                           struct br_quantity_orders *of, enum br_axis axis,
+                                           size_t points, struct br_error *err);
+enum br_status br_orders_renew(const struct br_orders *orders, struct br_quantity_orders *of,
+                               enum br_axis axis, struct br_error *err);
 
 /* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the
  * finest, with their limits, but not their orders (lines.c, for br_orders_find). */
 enum { BR_ORDERS_LEAST = 3 /* sizes of a line, for an order with an interval */ };
 enum br_status br_orders_add_lines(const struct br_orders *orders, struct br_quantity_orders *of,
                                    enum br_axis axis, struct br_error *err);
-enum br_status br_orders_add_differences(const struct br_orders *orders,
-                                         struct br_quantity_orders *of, enum br_axis axis,
-                                         struct br_error *err);
+enum br_status br_orders_begin_case(const struct br_orders *orders, size_t quantity,
+                                    enum br_axis axis, size_t points, struct br_case *c,
+                                    struct br_error *err);
 
 /* br_case_observe of a line over sizes of this column. Errors over degrees that are few, or have
  * few digits, may fit powers of 1/(degree + 1) as well as exponential convergence. */

@@ -221,36 +221,33 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
         advise(o, r->fitted, axis, l.flag);
 }
 
-/* Gives the numbers the differences of a study along an axis; NULL: there are none. */
-static enum br_status set_differences(const struct br_study *s, enum br_part part,
-                                      enum br_axis axis, struct br_numbers *n, struct br_error *err)
+static void fill_differences(const struct br_study *s, enum br_part part, enum br_axis axis,
+                             struct br_case *differences)
 {
-    struct br_differences *d = &n->quantity->differences[axis];
-    free(d->point);
-    *d = (struct br_differences){.points = s ? br_axis_count(s, (int)axis) : 0};
-    d->point = s ? br_allocate(d->points, sizeof *d->point) : NULL;
-    if (s && !d->point)
-        return br_no_memory(err, "the orders");
-    for (size_t i = 0; i < d->points; i++) {
+    for (size_t i = 0; i < differences->points; i++) {
         const struct br_cell *c = &s->cell[br_axis_cell(s, (int)axis, i, 0)];
-        d->point[i] = (struct br_point){.z = br_axis_size(s->scene, (int)axis, c->at),
-                                        .z_against = br_axis_size(s->scene, (int)axis, c->against),
-                                        .error = c->error[part],
-                                        .flag = c->flag[part]};
-        if (!d->point[i].flag && !(c->error[part] > 0))
-            d->point[i].flag = BR_FLAG_FAILED;
+        struct br_point *p = &differences->point[i];
+        *p = (struct br_point){.z = br_axis_size(s->scene, (int)axis, c->at),
+                               .z_against = br_axis_size(s->scene, (int)axis, c->against),
+                               .error = c->error[part],
+                               .flag = c->flag[part]};
+        if (!p->flag && !(p->error > 0))
+            p->flag = BR_FLAG_FAILED;
     }
-    return BR_OK;
 }
 
 static enum br_status ask(struct br_report *r, enum br_part part, enum br_axis axis,
                           struct br_observed_order *o, struct br_error *err)
 {
-    struct br_fits *fits = &r->fits[part];
-    if (set_differences(r->compared[axis], part, axis, &fits->numbers, err) ||
-        br_orders_renew(&fits->orders, axis, err))
+    const struct br_orders *orders = &r->fits[part].orders;
+    const struct br_study *compared = r->compared[axis];
+    const size_t points = compared ? br_axis_count(compared, (int)axis) : 0;
+    if (br_orders_begin_differences(orders, orders->of, axis, points, err))
         return err->status;
-    take_answer(o, r, &fits->orders, axis);
+    fill_differences(compared, part, axis, &orders->of->differences[axis].observed);
+    if (br_orders_renew(orders, orders->of, axis, err))
+        return err->status;
+    take_answer(o, r, orders, axis);
     return BR_OK;
 }
 
