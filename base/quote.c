@@ -74,17 +74,6 @@ const struct br_quoting br_for_shell = {
     .stead = {{'\'', "'\\''"}},
 };
 
-const struct br_quoting br_for_completion = {
-    .around = "'",
-    .stead = {{'\'', "'\\''"}, {'\\', " "}},
-};
-
-const struct br_quoting br_for_zsh = {
-    .around = "",
-    .escaped = "\\]",
-    .stead = {{'\'', "'\\''"}},
-};
-
 /* ---- characters ---- */
 
 /* Returns the bytes of the first character, 0: not UTF-8. *code (out): its number. */

@@ -40,9 +40,7 @@ extern const struct br_quoting br_for_xml;      /* text, or an attribute's value
 extern const struct br_quoting br_for_csv;      /* a field (RFC 4180), never a formula */
 extern const struct br_quoting br_for_github;   /* the message of a GitHub annotation */
 extern const struct br_quoting br_for_github_property;
-extern const struct br_quoting br_for_shell;      /* a word */
-extern const struct br_quoting br_for_completion; /* a string of any shell, without backslashes */
-extern const struct br_quoting br_for_zsh;        /* between [ and ] of a string of _arguments */
+extern const struct br_quoting br_for_shell; /* a word */
 
 /* Writes a text for a target. */
 void br_quote(FILE *out, const struct br_quoting *target, const char *text);

@@ -7,6 +7,26 @@
 
 #include "base/quote.h"
 
+char *br_short_name(const char *name, char text[BR_SHORT_NAME])
+{
+    const bool whole = strlen(name) < BR_SHORT_NAME;
+    int most = BR_SHORT_NAME - 4;
+    while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
+        most--;
+    snprintf(text, BR_SHORT_NAME, "%.*s%s", whole ? BR_SHORT_NAME : most, name, whole ? "" : "...");
+    return text;
+}
+
+void br_label_set(char label[96], const char *name, const char *unit)
+{
+    char text[BR_SHORT_NAME], markup[80];
+    if (unit && *unit)
+        snprintf(label, 96, "%.60s (%.32s)", name,
+                 br_quoted(markup, sizeof markup, &br_for_markup, br_short_name(unit, text)));
+    else
+        snprintf(label, 96, "%s", name);
+}
+
 static struct br_panel *last_panel(struct br_figure *f)
 {
     return &f->panel[f->panels - 1];

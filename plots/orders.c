@@ -9,21 +9,12 @@
 #include "orders/orders.h"
 #include "plots/pictures.h"
 
-/* A foreign name, shortened by whole characters; plain, or as markup. */
-enum { NAME = 40, MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
-static const char *shortened(const char *name, char *text)
-{
-    const bool whole = strlen(name) < NAME;
-    int most = NAME - 4;
-    while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
-        most--;
-    snprintf(text, NAME, "%.*s%s", whole ? NAME : most, name, whole ? "" : "...");
-    return text;
-}
+enum { MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
 
+/* A foreign name as markup. */
 static const char *name_of(const char *name, char markup[MARKUP])
 {
-    return br_quoted(markup, MARKUP, &br_for_markup, shortened(name, (char[NAME]){0}));
+    return br_quoted(markup, MARKUP, &br_for_markup, br_short_name(name, (char[BR_SHORT_NAME]){0}));
 }
 
 /* "2.00 [1.99, 2.01]": what is found of the order along an axis. */
@@ -61,7 +52,7 @@ static const char *title_of(const struct br_orders *o, const struct br_quantity_
     char text[96];
     const char *between = ": ";
     const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
-    shortened(br_quantity_of(o, of)->name, title);
+    br_short_name(br_quantity_of(o, of)->name, title);
     if (br_quantity_of(o, of)->is_value) {
         say_value(of->lines == 1 ? &of->line->limits.gci : NULL, &of->limit, strcat(title, ": "),
                   TITLE);
@@ -130,10 +121,10 @@ static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char 
 {
     const struct br_resolution_column *column = numbers->column[axis];
     const char *unit = column->is_size ? numbers->unit[axis] : NULL;
-    char states[MARKUP], quoted[MARKUP];
+    char states[MARKUP], name[MARKUP + 16];
     name_of(column->is_degree ? "1/(degree + 1)" : column->states, states);
-    snprintf(label, 96, "%s %.40s%s%.40s", axis == BR_AXIS_SPACE ? "mesh size" : "time step",
-             states, unit ? ", " : "", unit ? name_of(unit, quoted) : "");
+    snprintf(name, sizeof name, "%s %s", axis == BR_AXIS_SPACE ? "mesh size" : "time step", states);
+    br_label_set(label, name, unit);
 }
 
 /* The order of a triangle: a half or whole one where that is near. */
@@ -155,14 +146,14 @@ static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_a
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
         const char *unit = o->numbers->quantity[o->of[i].quantity].unit;
-        char x[96], quoted[MARKUP];
+        char x[96];
         if (!finest || br_quantity_of(o, &o->of[i])->is_value)
             continue;
         if (!p) {
             name_axis(o->numbers, axis, x);
             p = br_panel_add(f, x, "");
             p->log_x = p->log_y = true;
-            BR_SAY(p->y_label, "error%s%s", unit ? ", " : "", unit ? name_of(unit, quoted) : "");
+            br_label_set(p->y_label, "error", unit);
             common = unit;
         }
         if (!common || !unit || strcmp(common, unit) != 0)
@@ -220,12 +211,12 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     const struct br_gci *g = &line->limits.gci;
     const struct br_estimate *limit = &line->limits.limit.value;
     const struct br_point *point = line->observed.point, *finest = NULL;
-    char name[MARKUP], unit[MARKUP], x[96];
+    char name[MARKUP], x[96];
     const double end = point->z;
     name_of(q->name, name);
     name_axis(o->numbers, line->axis, x);
     struct br_panel *p = br_panel_add(f, x, "");
-    BR_SAY(p->y_label, "%s%s%s", name, q->unit ? ", " : "", q->unit ? name_of(q->unit, unit) : "");
+    br_label_set(p->y_label, name, q->unit);
     if (*line->at)
         BR_SAY(p->title, "at %s: ", line->at);
     say_value(g, &line->limits.limit, p->title, sizeof p->title);
@@ -258,19 +249,22 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
 /* "Order of l2: 2.00 [1.99, 2.01]; h1: 1.000 [0.999, 1.001]", "drag: p = 1.91, ...". */
 static void say_title(const struct br_orders *o, char *title, size_t size)
 {
-    enum { MOST = 2 }; /* quantities */
+    enum { MOST = 2, LETTERS = 80 }; /* quantities; beyond these the title's letters are small */
     char text[TITLE];
-    size_t said = 0;
-    for (size_t i = 0; i < o->count && said < MOST; i++) {
+    size_t said = 0, left = 0;
+    for (size_t i = 0; i < o->count; i++) {
         const struct br_quantity_orders *of = &o->of[i];
-        const bool value = br_quantity_of(o, of)->is_value;
-        const char *before = said ? "; " : value ? "" : "Order of ";
+        const char *before = br_quantity_of(o, of)->is_value ? "" : "Order of ";
         if (!of->lines)
             continue;
-        br_append(title, size, "%s%s", before, title_of(o, of, text));
-        said++;
+        title_of(o, of, text);
+        if (said == MOST || (said && strlen(title) + strlen(text) > LETTERS)) {
+            left++;
+            continue;
+        }
+        br_append(title, size, "%s%s", said++ ? "; " : before, text);
     }
-    br_append(title, size, "%s", o->count > MOST ? "; ..." : "");
+    br_append(title, size, "%s", left ? "; ..." : "");
 }
 
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)

@@ -59,7 +59,7 @@ struct br_figure_point {
 /* Series of one pen and title have one style in all panels, and one entry in the key. */
 struct br_series {
     char title[160]; /* "": not in the key */
-    char end[80];    /* a text beside the last point; of a panel with rows, left of its axis */
+    char end[100];   /* a text beside the last point; of a panel with rows, left of its axis */
     bool end_left;   /* it stands left of the point */
     bool stairs;     /* a line that keeps y until the next x, as a Pareto front does */
     enum br_pen pen;
@@ -100,6 +100,13 @@ struct br_figure {
 
 /* Fills a text of a figure. */
 #define BR_SAY(text, ...) snprintf((text), sizeof(text), __VA_ARGS__)
+
+/* A foreign name, shortened by whole characters, plain; returns text (out). */
+enum { BR_SHORT_NAME = 40 };
+char *br_short_name(const char *name, char text[BR_SHORT_NAME]);
+
+/* Sets a label: "error (m)" of a name in markup and a plain unit; NULL or "": none. */
+void br_label_set(char label[96], const char *name, const char *unit);
 
 /* Adds a panel; there must be room. */
 struct br_panel *br_panel_add(struct br_figure *figure, const char *x_label, const char *y_label);

@@ -260,8 +260,8 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
     if (!logarithmic) {
         const int digits = digits_of(r);
         fprintf(out,
-                digits > 6 ? "set %ctics nomirror autofreq; set format %c '%%.%dg'\n"
-                           : "set %ctics nomirror autofreq; set format %c '%%g'\n",
+                digits > 6 ? "set %ctics nomirror autofreq; set format %c '%%.%dh'\n"
+                           : "set %ctics nomirror autofreq; set format %c '%%h'\n",
                 axis, axis, digits);
         return;
     }
@@ -273,8 +273,8 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
     fprintf(out, "set logscale %c; set %ctics nomirror 1e%g,1e%g; set format %c '%s'\n", axis, axis,
             step * floor(log10(r.low) / step), step, axis, plain ? "%g" : "10^{%L}");
     static const char *const more[] = {
-        "(sprintf('10^{%d}', p) 10.0**p, sprintf('2·10^{%d}', p) 2*10.0**p, "
-        "sprintf('5·10^{%d}', p) 5*10.0**p)",
+        "(sprintf('10^{%d}', p) 10.0**p, sprintf('2×10^{%d}', p) 2*10.0**p, "
+        "sprintf('5×10^{%d}', p) 5*10.0**p)",
         "(sprintf('%g', 2*10.0**p) 2*10.0**p, sprintf('%g', 5*10.0**p) 5*10.0**p)"};
     if (decades(r) < 2)
         fprintf(out, "set for [p=%d:%d] %ctics add %s\n", (int)floor(log10(r.low)),
@@ -366,14 +366,14 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
 static void write_ends(FILE *out, const struct br_panel *p, double width, double row)
 {
     const double half = fmin(0.3, 12 / row); /* of a box */
-    size_t longest = 0;
-    for (size_t j = 0; j < p->count; j++) {
-        const size_t length = strlen(p->series[j]->end);
-        longest = length > longest ? length : longest;
-    }
+    const char *longest = "";
+    for (size_t j = 0; j < p->count; j++)
+        if (strlen(p->series[j]->end) > strlen(longest))
+            longest = p->series[j]->end;
+    const int letters = letters_of(SMALL, 0.6 * width, longest);
     if (p->rows)
         fprintf(out, "unset ytics; set lmargin at screen %.4f\n",
-                (40 + LETTER * (double)longest) / width);
+                (40 + LETTER * (double)letters / SMALL * (double)strlen(longest)) / width);
     for (size_t j = 0; j < p->count; j++) {
         const struct br_series *s = p->series[j];
         if (!s->count)
@@ -389,7 +389,8 @@ static void write_ends(FILE *out, const struct br_panel *p, double width, double
         fputs("set label ", out);
         br_quote(out, &br_for_gnuplot, s->end);
         if (p->rows)
-            fprintf(out, " at graph 0, first %.9g right offset -0.6,0\n", last->y);
+            fprintf(out, " at graph 0, first %.9g right offset -0.6,0 font ',%d'\n", last->y,
+                    letters);
         else
             fprintf(out, " at %.9g,%.9g %s offset %s0.5,0\n", last->x, last->y,
                     s->end_left ? "right" : "left", s->end_left ? "-" : "");

@@ -19,8 +19,6 @@ static const struct {
     {"markdown", &br_for_markdown},
     {"csv", &br_for_csv},
     {"shell", &br_for_shell},
-    {"completion", &br_for_completion},
-    {"zsh", &br_for_zsh},
     {"github", &br_for_github},
     {"github property", &br_for_github_property},
 };
@@ -82,8 +80,6 @@ TEST(test_targets)
         {&br_for_shell, "a-b.yaml", "a-b.yaml"},
         {&br_for_shell, "it's $(x)", "'it'\\''s $(x)'"},
         {&br_for_shell, "", "''"},
-        {&br_for_completion, "it's \\x", "'it'\\''s  x'"},
-        {&br_for_zsh, "it's a:[b\\]", "it'\\''s a:[b\\\\\\]"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_string_equal(quoted(cases[i].target, cases[i].text), cases[i].written);

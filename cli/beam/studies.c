@@ -7,7 +7,6 @@
 #include "cli/progress.h"
 #include "reference/printed.h"
 #include "study/grid/sweep.h"
-#include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 
 /* Study h of the cases in norm m. */
@@ -159,12 +158,6 @@ void br_studies_estimate_cost(const struct br_studies *r, struct br_costs *work)
 {
     for (size_t h = 0; h < r->cases; h++)
         br_costs_add_study(work, study_of(r, h, 0));
-}
-
-enum br_status br_studies_check_memory(const struct br_studies *r, struct br_error *err)
-{
-    return br_ranks_size() == 1 ? br_fit_together(r->study, r->cases, br_memory_available(), err)
-                                : BR_OK;
 }
 
 /* ---- the marches, and what follows from them ---- */

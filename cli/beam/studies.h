@@ -44,9 +44,6 @@ void br_studies_clear(struct br_studies *studies);
 
 void br_studies_estimate_cost(const struct br_studies *studies, struct br_costs *work);
 
-/* Checks the memory of the studies, which march at once. */
-enum br_status br_studies_check_memory(const struct br_studies *studies, struct br_error *err);
-
 /* Marches all and finishes the reports. */
 enum br_status br_studies_compute(struct br_studies *studies, struct br_error *err);
 

@@ -62,8 +62,10 @@ void br_beam_print_topic(const char *topic)
 {
     if (strcmp(topic, br_beam_topics[0]) == 0)
         print_methods(stdout);
+    else if (strcmp(topic, br_beam_topics[1]) == 0)
+        br_print_manual(stdout);
     else
-        br_write_language(stdout, topic, NULL);
+        br_print_options_page(stdout);
 }
 
 const struct br_beam br_beam = {

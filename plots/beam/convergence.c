@@ -162,17 +162,19 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
     const enum br_part parts = both ? BR_PARTS : 1;
     const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
-    const struct br_observed_order *total = &r->observed[BR_PART_TOTAL][axis];
+    const struct br_observed_order *most = &r->observed[BR_PART_TOTAL][axis];
     struct br_panel *p = add_panel(r, (int)axis, f);
     const struct br_series *line[BR_PARTS];
     name_errors(r, axis, parts, p);
-    BR_SAY(p->title, "%s", total->by);
-    p->top.count = 0; /* the sizes of the order, not of the grid */
-    for (size_t i = 0; i < total->points; i++)
-        br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
-    for (enum br_part part = 0; part < parts; part++)
-        line[part] = br_errors_add(f, br_part_names[part], r->observed[part][axis].point,
-                                   r->observed[part][axis].points, true);
+    BR_SAY(p->title, "%s", most->by);
+    for (enum br_part part = 0; part < parts; part++) {
+        const struct br_observed_order *o = &r->observed[part][axis];
+        most = o->points > most->points ? o : most;
+        line[part] = br_errors_add(f, br_part_names[part], o->point, o->points, true);
+    }
+    p->top.count = 0; /* the sizes of the orders, not of the grid */
+    for (size_t i = 0; i < most->points; i++)
+        br_point_add(&p->top, most->point[i].z, round(whole / most->point[i].z), NULL);
     for (enum br_part part = 0; part < parts; part++)
         br_slope_add(f, line[part], r->observed[part][axis].theory.formal);
 }

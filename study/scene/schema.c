@@ -153,15 +153,17 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
                                       struct br_si_number *q)
 {
     enum { MOST_UNIT = 64 };
-    char *behind, word[MOST_UNIT];
+    char word[MOST_UNIT];
+    double value;
     struct br_unit unit;
-    const double value = strtod(text, &behind);
-    const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
-    if (behind == text || (*behind && strchr(".,", *behind)) || !isfinite(value) ||
-        length >= MOST_UNIT)
+    const char *behind = br_read_number(text, &value);
+    const size_t length = !behind                ? 0
+                          : end && end >= behind ? (size_t)(end - behind)
+                                                 : strlen(behind);
+    if (!behind || (*behind && strchr(".,", *behind)) || length >= MOST_UNIT)
         return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
                                br_yaml_text(v->node), v->unit,
-                               *behind == ',' ? ", with a point before decimals" : "");
+                               behind && *behind == ',' ? ", with a point before decimals" : "");
     snprintf(word, sizeof word, "%.*s", (int)length, behind);
     const enum br_status status = br_scene_read_unit(v, word + strspn(word, " "), &unit);
     if (status)

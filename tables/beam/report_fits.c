@@ -13,8 +13,6 @@
 void br_put_study_fits(struct br_document *d, const struct br_report *r)
 {
     static const char *const kinds[] = {"space and time", "time", "space"};
-    static const char *const orders[] = {"p", "q"}, *const headings[] = {"p [95 %]", "q [95 %]"},
-                             *const constants[] = {"C_h", "C_k"};
     bool shown = false;
     for (enum br_part part = 0; part < BR_PARTS; part++)
         shown |=
@@ -24,7 +22,6 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         const struct br_joint_fit *j = &r->fits[part].joint;
         const bool claims = br_joint_describes(j);
-        char text[128];
         if (!br_part_is_shown(r, part))
             continue;
         br_put_row(d);
@@ -35,16 +32,16 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
             br_put_shown(d, "none");
         for (int a = 0; a < BR_AXES; a++) {
             const bool sure = r->observed[part][a].joint; /* else another order is the answer */
-            BR_PUT_ESTIMATE(d, &j->order[a],
-                            sure     ? br_order_text(&j->order[a], text, sizeof text)
+            BR_PUT_ESTIMATE(d, a ? "q_" : "p_", &j->order[a],
+                            sure     ? br_order_shown(d, &j->order[a])
                             : claims ? "not used"
                                      : "-",
-                            .key = orders[a], .heading = headings[a]);
-            BR_PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a],
-                            .format = "%.3g");
+                            .key = a ? "q" : "p", .heading = a ? "q [95 %]" : "p [95 %]");
+            BR_PUT_ESTIMATE(d, a ? "C_k_" : "C_h_", &j->c[a], claims ? NULL : "-",
+                            .key = a ? "C_k" : "C_h", .format = "%.3g");
         }
-        BR_PUT_ESTIMATE(d, &j->r, claims ? br_interval_text(&j->r, text, sizeof text) : "-",
-                        .key = "r", .heading = "r [95 %]");
+        BR_PUT_ESTIMATE(d, "r_", &j->r, claims ? br_interval_shown(d, &j->r) : "-", .key = "r",
+                        .heading = "r [95 %]");
         BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
         BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
         BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
@@ -61,31 +58,34 @@ void br_put_study_fits(struct br_document *d, const struct br_report *r)
 
 /* ---- contradictions ---- */
 
+static void put_triangle(struct br_document *d, const struct br_scene *scene,
+                         const struct br_triangle *t)
+{
+    br_put_row(d);
+    BR_PUT(d, br_count(t->a.n), .key = "a_n", .heading = "n");
+    BR_PUT(d, br_number(br_time_step(scene, t->a.steps)), .key = "a_k", .heading = "k",
+           .unit = "s");
+    BR_PUT(d, br_count(t->b.n), .key = "b_n", .heading = "and n");
+    BR_PUT(d, br_number(br_time_step(scene, t->b.steps)), .key = "b_k", .heading = "k",
+           .unit = "s");
+    BR_PUT(d, br_number(t->printed_a), .key = "printed_a", .heading = "printed", .format = "%.3e");
+    BR_PUT(d, br_number(t->printed_b), .key = "printed_b", .heading = "and", .format = "%.3e");
+    BR_PUT(d, br_number(t->least), .key = "least", .heading = "need at least", .format = "%.2e");
+    BR_PUT(d, br_number(t->most), .key = "most", .heading = "at most", .format = "%.2e");
+    BR_PUT(d, br_number(t->distance), .key = "distance", .heading = "are apart", .format = "%.2e");
+    BR_PUT(d, br_truth(t->contradiction), .key = "contradiction");
+}
+
 void br_put_triangles(struct br_document *d, const struct br_report *r)
 {
-    static const struct br_column columns[] = {
-        {.key = "a_n", .heading = "n"},
-        {.key = "a_k", .heading = "k", .unit = "s"},
-        {.key = "b_n", .heading = "and n"},
-        {.key = "b_k", .heading = "k", .unit = "s"},
-        {.key = "printed_a", .heading = "printed", .format = "%.3e"},
-        {.key = "printed_b", .heading = "and", .format = "%.3e"},
-        {.key = "least", .heading = "need at least", .format = "%.2e"},
-        {.key = "most", .heading = "at most", .format = "%.2e"},
-        {.key = "distance", .heading = "are apart", .format = "%.2e"},
-        {.key = "contradiction"},
-    };
     if (!r->printed)
         return;
-    BR_TABLE(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)", BR_FILES_ONLY,
-             columns);
-    for (size_t i = 0; i < r->triangles; i++) {
-        const struct br_triangle *t = &r->triangle[i];
-        BR_PUT_ROW(d, br_count(t->a.n), br_number(br_time_step(r->study->scene, t->a.steps)),
-                   br_count(t->b.n), br_number(br_time_step(r->study->scene, t->b.steps)),
-                   br_number(t->printed_a), br_number(t->printed_b), br_number(t->least),
-                   br_number(t->most), br_number(t->distance), br_truth(t->contradiction));
-    }
+    br_put_table(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)",
+                 BR_FILES_ONLY);
+    put_triangle(d, r->study->scene, &(struct br_triangle){0});
+    br_put_no_row(d);
+    for (size_t i = 0; i < r->triangles; i++)
+        put_triangle(d, r->study->scene, &r->triangle[i]);
     br_put_note(d, "For every reference, the distance of two solutions is at least the difference "
                    "of their errors, and at most the sum. The last column but one is the distance "
                    "of the scheme's own solutions.");
@@ -97,7 +97,6 @@ static void put_reference(struct br_document *d, const char *key, const struct b
 {
     static const char *const own[] = {"own_error", "own_axial_error", "own_bending_error"};
     const char *unit = s->norm->unit;
-    char method[64];
     br_hide_fact(d, br_text(s->reference_kind->name), NULL, "%s.kind", key);
     br_hide_fact(d, br_text(s->reference_kind->title), NULL, "%s.title", key);
     if (s->reference_kind->nests) {
@@ -105,8 +104,7 @@ static void put_reference(struct br_document *d, const char *key, const struct b
         br_hide_fact(d, br_number(br_reference_mesh(s)), "m", "%s.at.h", key);
         br_hide_fact(d, br_count(s->reference.steps), NULL, "%s.at.steps", key);
         br_hide_fact(d, br_number(br_reference_step(s)), "s", "%s.at.k", key);
-        snprintf(method, sizeof method, "%s.method", key);
-        br_put_method_facts(d, method, &s->reference_method,
+        br_put_method_facts(d, br_format(d, "%s.method", key), &s->reference_method,
                             &(struct br_meshes){s->scene, &s->reference.n, 1});
     }
     for (enum br_part part = 0; part < BR_PARTS; part++)

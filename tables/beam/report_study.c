@@ -30,7 +30,6 @@ static void put_grid(struct br_document *d, const struct br_report *r, const str
 {
     static const char *const marks[BR_CELL_FLAGS] = {"", "R", "F", "X", "U", "S"};
     const struct br_study *s = g->study;
-    char buffer[64];
     br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);
     for (size_t i = 0; i < s->n_count; i++) {
         br_put_row(d);
@@ -38,10 +37,9 @@ static void put_grid(struct br_document *d, const struct br_report *r, const str
         for (size_t j = 0; j < s->k_count; j++) {
             const struct br_cell *c = br_study_cell(s, i, j);
             const double value = g->value ? g->value(r, i * s->k_count + j) : c->error[g->part];
-            char key[32];
-            snprintf(key, sizeof key, "steps%zu", s->steps[j]);
-            snprintf(buffer, sizeof buffer, "k = %g", br_time_step(s->scene, s->steps[j]));
-            BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
+            BR_PUT(d, br_number(value), .key = br_format(d, "steps%zu", s->steps[j]),
+                   .heading = br_format(d, "k = %g", br_time_step(s->scene, s->steps[j])),
+                   .format = g->format);
             br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
         }
     }
