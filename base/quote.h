@@ -45,7 +45,12 @@ extern const struct br_quoting br_for_shell; /* a word */
 /* Writes a text for a target. */
 void br_quote(FILE *out, const struct br_quoting *target, const char *text);
 
-/* The same into a buffer, which it returns. Characters that do not fit are left out as a whole. */
+/* printf whose texts are written for a target (NULL: an empty one): of %s, %d, %zu, %%, numbers. */
+__attribute__((format(printf, 3, 4))) void br_print(FILE *out, const struct br_quoting *target,
+                                                    const char *format, ...);
+
+/* The same as br_quote into a buffer, which it returns. Characters that do not fit are left out as
+ * a whole. */
 char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, const char *text);
 
 /* Writes a comment of a gnuplot script or a data file, and the end of its line. */

@@ -33,7 +33,7 @@ struct br_figure br_check_draw(const struct br_check *check, size_t count)
     for (size_t i = 0; i < count; i++)
         orders += check[i].count;
     if (orders)
-        br_panel_add(&f, "order, with its 95 % interval", "")->rows = true;
+        br_panel_add(&f, false, "order, with its 95 % interval", "%s", "")->rows = true;
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         if (br_check_tally(check, count, (enum br_verdict)v)) {
             marks[v] = br_series_add(&f, BR_PEN_MARKS, "%s", br_verdict_names[v]);

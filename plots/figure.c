@@ -32,12 +32,17 @@ static struct br_panel *last_panel(struct br_figure *f)
     return &f->panel[f->panels - 1];
 }
 
-struct br_panel *br_panel_add(struct br_figure *f, const char *x_label, const char *y_label)
+struct br_panel *br_panel_add(struct br_figure *f, bool logarithmic, const char *x_label,
+                              const char *y_label, ...)
 {
-    f->panels++;
-    BR_SAY(last_panel(f)->x_label, "%s", x_label);
-    BR_SAY(last_panel(f)->y_label, "%s", y_label);
-    return last_panel(f);
+    struct br_panel *p = &f->panel[f->panels++];
+    va_list arguments;
+    BR_SAY(p->x_label, "%s", x_label);
+    va_start(arguments, y_label);
+    vsnprintf(p->y_label, sizeof p->y_label, y_label, arguments);
+    va_end(arguments);
+    p->log_x = p->log_y = logarithmic;
+    return p;
 }
 
 /* Whether series of the two pens must differ in style. */

@@ -81,22 +81,21 @@ static void add_by_hand(struct br_series *marks, const struct br_orders *o,
     }
 }
 
-struct br_series *br_errors_add(struct br_figure *f, const char *title,
-                                const struct br_point *point, size_t count, bool fitted)
+struct br_series *br_points_draw(struct br_figure *f, const char *title,
+                                 const struct br_point *point, size_t count, bool fitted)
 {
     struct br_series *area = fitted ? br_series_add(f, BR_PEN_AREA, "%s", title) : NULL;
     struct br_series *line = fitted ? br_series_add(f, BR_PEN_LINE, "%s", title) : NULL;
     struct br_series *marks = br_series_add(f, fitted ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", title);
-    for (const struct br_point *p = point; p < point + count; p++) {
+    for (const struct br_point *p = point; p < point + count; p++)
         br_point_add(marks, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
                      p->flag ? br_flag_name(p->flag) : NULL);
-        if (fitted) {
+    for (size_t i = 0; i < 2 * count && fitted; i++) { /* the band goes back along its upper end */
+        const struct br_point *p = &point[i < count ? i : 2 * count - 1 - i];
+        if (i < count)
             br_point_add(line, p->z, p->fit.value, NULL);
-            br_point_add(area, p->z, p->fit.low, NULL);
-        }
+        br_point_add(area, p->z, i < count ? p->fit.low : p->fit.high, NULL);
     }
-    for (size_t i = count; i-- > 0 && fitted;)
-        br_point_add(area, point[i].z, point[i].fit.high, NULL);
     return marks;
 }
 
@@ -110,7 +109,7 @@ static const struct br_series *add_line(struct br_figure *f, const struct br_ord
     const struct br_case *c = &line->observed;
     const bool fitted = c->points && isfinite(c->point[0].fit.value);
     br_quoted(name, sizeof name, &br_for_markup, title_of(o, of, title));
-    struct br_series *marks = br_errors_add(f, name, c->point, c->points, fitted);
+    struct br_series *marks = br_points_draw(f, name, c->point, c->points, fitted);
     add_by_hand(marks, o, of, line);
     br_series_sort(marks);
     return marks;
@@ -151,8 +150,7 @@ static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_a
             continue;
         if (!p) {
             name_axis(o->numbers, axis, x);
-            p = br_panel_add(f, x, "");
-            p->log_x = p->log_y = true;
+            p = br_panel_add(f, true, x, "%s", "");
             br_label_set(p->y_label, "error", unit);
             common = unit;
         }
@@ -215,7 +213,7 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     const double end = point->z;
     name_of(q->name, name);
     name_axis(o->numbers, line->axis, x);
-    struct br_panel *p = br_panel_add(f, x, "");
+    struct br_panel *p = br_panel_add(f, false, x, "%s", "");
     br_label_set(p->y_label, name, q->unit);
     if (*line->at)
         BR_SAY(p->title, "at %s: ", line->at);

@@ -108,8 +108,12 @@ char *br_short_name(const char *name, char text[BR_SHORT_NAME]);
 /* Sets a label: "error (m)" of a name in markup and a plain unit; NULL or "": none. */
 void br_label_set(char label[96], const char *name, const char *unit);
 
-/* Adds a panel; there must be room. */
-struct br_panel *br_panel_add(struct br_figure *figure, const char *x_label, const char *y_label);
+/* Adds a panel, with logarithmic axes or with linear ones; there must be room. The label of y is a
+ * format. */
+__attribute__((format(printf, 4, 5))) struct br_panel *br_panel_add(struct br_figure *figure,
+                                                                    bool logarithmic,
+                                                                    const char *x_label,
+                                                                    const char *y_label, ...);
 
 /* Adds a series, to be filled, to the last panel. The title is a format. */
 __attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_figure *figure,
@@ -155,14 +159,14 @@ void br_figure_write_script(FILE *out, const struct br_figure *figure);
 
 /* ---- orders.c: any program's errors ---- */
 
-/* Adds errors to the last panel, with the line that was fitted to them and its band, or as a curve;
- * returns their marks. */
-struct br_series *br_errors_add(struct br_figure *figure, const char *title,
-                                const struct br_point *point, size_t count, bool fitted);
-
 /* A panel over the size of elements, and one over that of steps. Each quantity has a line, at the
  * finest size of the other kind. */
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
+
+/* Adds errors over sizes to the last panel: marks, the line that was fitted to them and its band;
+ * or joined marks where none was fitted. Returns the marks. */
+struct br_series *br_points_draw(struct br_figure *figure, const char *title,
+                                 const struct br_point *point, size_t count, bool fitted);
 
 /* ---- work.c: errors over costs of several programs ---- */
 

@@ -96,8 +96,7 @@ static void add_entry(struct key *key, const char *title, const char *style,
         fputs(style, key->out);
     else
         write_pen(key->out, series);
-    fputs(" title ", key->out);
-    br_quote(key->out, &br_for_gnuplot, title);
+    br_print(key->out, &br_for_gnuplot, " title %s", title);
 }
 
 /* Adds the series with a title, one of BR_PEN_OTHERS, and the meaning of a hollow mark. */
@@ -157,10 +156,9 @@ static void write_titles(FILE *out, const struct br_figure *f, const struct page
         const char *line = i ? f->note[i - 1] : f->title;
         if (!*line)
             continue;
-        fputs("set label ", out);
-        br_quote(out, &br_for_gnuplot, line);
-        fprintf(out, " at screen %.4f,%.4f left noenhanced font ',%d'\n", 30 / l->width,
-                y / l->height, letters_of(i ? SMALL : FONT + 2, l->width, line));
+        br_print(out, &br_for_gnuplot,
+                 "set label %s at screen %.4f,%.4f left noenhanced font ',%d'\n", line,
+                 30 / l->width, y / l->height, letters_of(i ? SMALL : FONT + 2, l->width, line));
         y -= LINE - 2;
     }
 }
@@ -176,11 +174,9 @@ static void write_head(FILE *out, const struct br_figure *f)
             "# Draws %s.svg, .png and, where gnuplot can, .pdf from %s.dat;\n"
             "# edit it, and draw again, in this folder, with\n"
             "#     gnuplot %s.gp\n\n"
-            "set encoding utf8\n"
-            "stem = ",
+            "set encoding utf8\n",
             name, name, name);
-    br_quote(out, &br_for_gnuplot, f->stem);
-    fputs("\ndata = stem.'.dat'\n", out);
+    br_print(out, &br_for_gnuplot, "stem = %s\ndata = stem.'.dat'\n", f->stem);
 }
 
 /* Writes the loop over the three terminals, which scale marks and ticks differently. Marks shrink
@@ -305,14 +301,6 @@ static void write_top(FILE *out, const struct br_panel *p, struct br_range x, do
     fprintf(out, ")\nset x2label '%s' font ',%d'\n", p->top_label, SMALL);
 }
 
-/* room: the length of the text's line, pixels. */
-static void write_text(FILE *out, const char *what, const char *text, double room)
-{
-    fprintf(out, "set %s ", what);
-    br_quote(out, &br_for_gnuplot, text);
-    fprintf(out, " font ',%d'\n", letters_of(FONT, room, text));
-}
-
 /* ---- the script: what is plotted ---- */
 
 static void write_curve(FILE *out, const struct br_series *s, size_t index)
@@ -386,8 +374,7 @@ static void write_ends(FILE *out, const struct br_panel *p, double width, double
                     s->point->x, last->y - half, last->x, last->y + half);
         if (!s->end[0])
             continue;
-        fputs("set label ", out);
-        br_quote(out, &br_for_gnuplot, s->end);
+        br_print(out, &br_for_gnuplot, "set label %s", s->end);
         if (p->rows)
             fprintf(out, " at graph 0, first %.9g right offset -0.6,0 font ',%d'\n", last->y,
                     letters);
@@ -410,9 +397,11 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
             width / l->width, height / l->height);
     if (i == 0)
         write_titles(out, f, l);
-    write_text(out, "title", p->title, width - 60);
-    write_text(out, "xlabel", p->x_label, width - 60);
-    write_text(out, "ylabel", p->y_label, height);
+    br_print(out, &br_for_gnuplot,
+             "set title %s font ',%d'\nset xlabel %s font ',%d'\nset ylabel %s font ',%d'\n",
+             p->title, letters_of(FONT, width - 60, p->title), p->x_label,
+             letters_of(FONT, width - 60, p->x_label), p->y_label,
+             letters_of(FONT, height, p->y_label));
     write_axis(out, 'x', x, p->log_x, 0.75 * width);
     write_axis(out, 'y', y, p->log_y, 0.7 * height);
     write_top(out, p, x, 0.75 * width / decades(x));

@@ -18,9 +18,8 @@ static void add_point(struct br_series *s, const struct br_point *p)
 static void add_work(struct br_figure *f, const struct br_work_precision *w)
 {
     char text[MARKUP], error[MARKUP + 8];
-    struct br_panel *panel = br_panel_add(f, "", "");
+    struct br_panel *panel = br_panel_add(f, true, "", "%s", "");
     br_label_set(panel->x_label, br_quoted(text, MARKUP, &br_for_markup, w->cost), w->cost_unit);
-    panel->log_x = panel->log_y = true;
     snprintf(error, sizeof error, "error %s", br_quoted(text, MARKUP, &br_for_markup, w->quantity));
     br_label_set(panel->y_label, error, w->unit);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "front of all"), *others = NULL;

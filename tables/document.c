@@ -52,6 +52,14 @@ static void *grown(struct br_document *d, void *list, size_t count, size_t *room
     return larger;
 }
 
+/* Stores the failure of a report that is built wrongly; it is not printed. */
+static void refuse(struct br_document *d, const char *what, const char *key)
+{
+    if (!d->failure.status)
+        br_fail(&d->failure, BR_IO, "the report %.100s was built wrongly: %s '%.100s'",
+                d->name ? d->name : "", what, key ? key : "");
+}
+
 static const char *note_length(struct br_document *d, const char *text)
 {
     const size_t length = strlen(text);
@@ -86,7 +94,9 @@ const char *br_format(struct br_document *d, const char *format, ...)
     va_start(arguments, format);
     const int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
-    char *text = length < 0 ? NULL : take(d, (size_t)length + 1);
+    if (length < 0)
+        refuse(d, "no text by the format", format);
+    char *text = take(d, (size_t)length + 1);
     if (!text)
         return "";
     va_start(arguments, format);
@@ -111,14 +121,6 @@ void br_document_begin(struct br_document *d, const char *name, const char *form
     d->format = copied(d, format);
     d->version = version;
     d->caption = copied(d, caption);
-}
-
-/* Stores the failure of a report that is built wrongly; it is not printed. */
-static void refuse(struct br_document *d, const char *what, const char *key)
-{
-    if (!d->failure.status)
-        br_fail(&d->failure, BR_IO, "the report %.100s was built wrongly: %s '%.100s'",
-                d->name ? d->name : "", what, key ? key : "");
 }
 
 /* Makes the document fail where the program must stop. */

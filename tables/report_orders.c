@@ -329,7 +329,7 @@ static void say_restless(struct br_document *d, const struct br_orders_line *lin
     }
     for (size_t i = 2; i < count; i++)
         turns += (v[i] - v[i - 1]) * (v[i - 1] - v[i - 2]) < 0;
-    const double *finest = &v[count - 3];
+    const double *finest = &v[count < 3 ? 0 : count - 3];
     if (sequence == BR_MONOTONE_DIVERGENCE)
         br_put_more(d, " The differences grow: the sizes are too coarse, or there is no limit, as "
                        "at a singularity.");

@@ -774,6 +774,22 @@ TEST(test_built_wrongly)
     }
 }
 
+/* A row that is taken back leaves columns, but neither values nor their alignment. */
+TEST(test_row_is_taken_back)
+{
+    struct br_document d = {0};
+    br_document_begin(&d, "back", "f", 1, "c");
+    put_x(&d, "t", "T");
+    br_put_row(&d);
+    BR_PUT(&d, br_nothing(), .key = "x");
+    const struct br_document_table *t = d.block[0].table;
+    assert_int_equal(t->rows, 1);
+    assert_int_equal(t->columns, 1);
+    assert_false(br_document_is_shown(t, 0));
+    assert_int_equal(t->column[0].flags, 0);
+    br_document_clear(&d);
+}
+
 /* What rounds to zero has no sign, wherever numbers become text; all else stays. */
 TEST(test_no_sign_of_zero)
 {

@@ -38,6 +38,19 @@ static const char *quoted(const struct br_quoting *target, const char *text)
     return buffer;
 }
 
+/* The pieces between texts, the numbers, and a text that is not there. */
+TEST(test_print)
+{
+    static const char *volatile absent; /* NULL, of which the compiler does not know */
+    char text[200] = "";
+    FILE *out = fmemopen(text, sizeof text, "w");
+    assert_non_null(out);
+    br_print(out, &br_for_xml, "<a n=\"%zu\" x='%+.2f' %%>%s%s</a>%d%g%%", (size_t)7, 1.5, "a<b",
+             absent, -3, 1e9);
+    assert_int_equal(fclose(out), 0);
+    assert_string_equal(text, "<a n=\"7\" x='+1.50' %>a&lt;b</a>-31e+09%");
+}
+
 TEST(test_targets)
 {
     static const struct {

@@ -33,7 +33,4 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES]);
 void br_print_manual(FILE *out);
 void br_print_options_page(FILE *out);
 
-extern const char *const br_beam_topics[];
-void br_beam_print_topic(const char *topic);
-
 #endif

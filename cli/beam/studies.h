@@ -22,6 +22,7 @@ struct br_study_work {
     size_t *steps; /* numbers of steps of the grid, ascending; owned */
     struct br_grid_differences compared;
     char name[BR_MOST_NORMS][512];          /* of the reports */
+    char *caption[BR_MOST_NORMS];           /* the same; owned */
     struct br_report report[BR_MOST_NORMS]; /* request.norms of them */
 };
 

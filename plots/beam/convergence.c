@@ -83,9 +83,8 @@ static struct br_panel *add_panel(const struct br_report *r, int axis, struct br
     const struct br_study *s = r->fitted;
     const struct br_norm *norm = s->norm;
     const bool space = axis == BR_AXIS_SPACE;
-    struct br_panel *p = br_panel_add(f, space ? "mesh size h (m)" : "time step k (s)", "");
-    p->log_x = p->log_y = true;
-    BR_SAY(p->y_label, "%s (%s)", norm->symbol, norm->unit_markup);
+    struct br_panel *p = br_panel_add(f, true, space ? "mesh size h (m)" : "time step k (s)",
+                                      "%s (%s)", norm->symbol, norm->unit_markup);
     BR_SAY(p->top_label, space ? "elements n" : "steps N");
     for (size_t i = 0; i < br_axis_count(s, axis); i++)
         br_point_add(&p->top,
@@ -170,7 +169,7 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     for (enum br_part part = 0; part < parts; part++) {
         const struct br_observed_order *o = &r->observed[part][axis];
         most = o->points > most->points ? o : most;
-        line[part] = br_errors_add(f, br_part_names[part], o->point, o->points, true);
+        line[part] = br_points_draw(f, br_part_names[part], o->point, o->points, true);
     }
     p->top.count = 0; /* the sizes of the orders, not of the grid */
     for (size_t i = 0; i < most->points; i++)

@@ -334,10 +334,8 @@ static void put_state(struct br_document *d, const struct br_run_report *r, bool
                       const struct br_energy *e)
 {
     const char *of = end ? "end" : "start";
-    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J",
-            end ? "energies.end.kinetic" : "energies.start.kinetic");
-    put_two(d, r, e->stored, end ? "stored" : NULL, "J",
-            end ? "energies.end.stored" : "energies.start.stored");
+    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J", br_format(d, "energies.%s.kinetic", of));
+    put_two(d, r, e->stored, end ? "stored" : NULL, "J", br_format(d, "energies.%s.stored", of));
     br_put_fact_as(d, br_if(r->marched.contact.modelled, br_number(e->contact)),
                    end ? "of the contact" : NULL, "J", "energies.%s.contact", of);
     br_put_fact_as(d, br_number(br_energy_total(e)), end ? "total" : "total at t = 0", "J",
