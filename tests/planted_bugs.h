@@ -698,7 +698,7 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_orders test_verdicts", "strcasecmp(name, e->quantity) == 0",
      "strcmp(name, e->quantity) == 0"},
     {"a_round_of_differences_forgotten", "stale", "orders/orders.c", "golden study",
-     "        of->answer[axis] = find_answer(o, of, axis);\n    }", "    }"},
+     "    of->answer[axis] = find_answer(o, of, axis);\n    return BR_OK;", "    return BR_OK;"},
     {"every_order_has_a_row", "drawn", "plots/check.c", "tests/test_figure test_checks",
      "rows += orders <= ROWS || j == 0;", "rows++;"},
     {"second_value_replaces_the_first", "lost", "tables/document.c",
