@@ -920,6 +920,26 @@ TEST(test_blown_up_cells)
     }
 }
 
+/* On a grid of two studies one lacks the coarsest mesh, and its finest error is zero. */
+TEST(test_rows_that_a_study_lacks)
+{
+    char text[4096] = "method,h,k,l2\n";
+    for (int i = 0; i < 32; i++) {
+        const double h = pow(2, -i / 4 % 4), k = pow(2, -i % 4);
+        const bool second = i >= 16, zero = second && i % 16 == 15;
+        if (!second || h < 1)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "P%d,%g,%g,%.17g\n",
+                     second + 1, h, k, zero ? 0 : power_law(h, k, 2, 1));
+    }
+    find(text, NULL);
+    const struct br_quantity_orders *of = &found.orders.of[1];
+    for (size_t i = 0; i < 16; i++)
+        assert_int_equal(of->flag[i], i < 4     ? BR_FLAG_ABSENT
+                                      : i == 15 ? BR_FLAG_ROUND_OFF
+                                                : BR_FLAG_NONE);
+    assert_int_equal(of->joint.points, 11);
+}
+
 /* No line has three sizes. */
 TEST(test_two_diagonals)
 {
