@@ -3,6 +3,7 @@
 #ifndef BR_ORDERS_AXIS_H
 #define BR_ORDERS_AXIS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
@@ -24,9 +25,17 @@ enum br_flag {
     BR_FLAG_COARSE,    /* the grid is too coarse for the order of the finer ones */
     BR_FLAG_OUTLIER,   /* the error is far from those of its neighbours */
     BR_FLAG_BY_HAND,   /* it is outside of the window that was asked for */
+    BR_FLAG_ABSENT,    /* its study has no such row */
     BR_CELL_FLAGS
 };
-const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable",
-                                           "stagnation", "not asymptotic", "outlier", "by hand" */
+/* "", "reference", "round-off", "failed", "unstable", "stagnation", "not asymptotic", "outlier",
+ * "by hand", "" */
+const char *br_flag_name(enum br_flag flag);
+
+/* Whether a number has a part in the study, left out or not. */
+static inline bool br_has_part(enum br_flag flag)
+{
+    return flag != BR_FLAG_BY_HAND && flag != BR_FLAG_ABSENT;
+}
 
 #endif

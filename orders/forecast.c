@@ -11,24 +11,20 @@ struct br_orders_forecast br_orders_forecast_of(const struct br_orders *o,
                                                 const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = br_orders_is_grid(o) || !of->lines ? NULL : &of->line[0];
-    struct br_orders_forecast f = {.line = NULL};
     if (!line)
-        return f;
+        return (struct br_orders_forecast){.line = NULL};
     const struct br_case *c = &line->observed;
     const bool is_value = br_quantity_of(o, of)->is_value;
-    const size_t last = c->points - 1 + is_value;
-    f = (struct br_orders_forecast){line, line->limits.gci.fine.index, line->limits.gci.order,
-                                    o->numbers->row[line->row[last]].z[line->axis], NAN};
-    if (!is_value) {
-        f.number =
-            c->point[last].flag || br_law_is_floor(c->law) ? (double)NAN : c->point[last].error;
-        f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
-    }
+    const struct br_point *finest = c->point + c->points - 1 + is_value;
     const enum br_sequence sequence = line->limits.limit.sequence;
-    if (isnan(o->numbers->row[line->row[last]].number[of->quantity]) || /* of a coarser row */
-        sequence == BR_SEQUENCE_ANOMALOUS || sequence == BR_SEQUENCE_UNKNOWN)
-        f.number = is_value ? (double)NAN : f.number;
-    f.ratio = f.z / o->numbers->row[line->row[last - 1]].z[line->axis];
+    struct br_orders_forecast f = {line, line->limits.gci.fine.index, line->limits.gci.order,
+                                   finest->z, finest->z / finest[-1].z};
+    if (!is_value) {
+        f.number = finest->flag || br_law_is_floor(c->law) ? (double)NAN : finest->error;
+        f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
+    } else if (isnan(finest->value) || /* the index is of coarser ones */
+               sequence == BR_SEQUENCE_ANOMALOUS || sequence == BR_SEQUENCE_UNKNOWN)
+        f.number = NAN;
     if (!(f.number > 0 && f.order > 0))
         f.line = NULL;
     return f;
@@ -88,7 +84,7 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     const size_t rows = line->observed.points + o->numbers->quantity[o->of[0].quantity].is_value;
     size_t count = 0;
     for (size_t i = 0; i < rows; i++) {
-        const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
+        const struct br_numbers_row *row = &o->numbers->row[line->observed.point[i].row];
         if (row->seconds >= least_seconds)
             point[count++] = (struct br_point){.z = row->z[axis], .error = 1 / row->seconds};
     }

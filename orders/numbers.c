@@ -105,14 +105,11 @@ void br_numbers_clear(struct br_numbers *numbers)
         free(numbers->quantity[i].name);
         free(numbers->quantity[i].unit);
         free(numbers->quantity[i].window);
-        for (int axis = 0; axis < BR_AXES; axis++)
-            free(numbers->quantity[i].differences[axis].point);
     }
     for (size_t i = 0; i < numbers->rows; i++) {
         free(numbers->row[i].number);
         free(numbers->row[i].out);
         free(numbers->row[i].failure);
-        free(numbers->row[i].absent);
     }
     for (int axis = 0; axis < BR_AXES; axis++)
         free(numbers->unit[axis]);
@@ -289,7 +286,7 @@ const char *const br_axis_letters[] = {"h", "k"};
 const char *br_flag_name(enum br_flag flag)
 {
     static const char *const names[BR_CELL_FLAGS] = {
-        "",           "reference",      "round-off", "failed", "unstable",
-        "stagnation", "not asymptotic", "outlier",   "by hand"};
+        "",           "reference",      "round-off", "failed",  "unstable",
+        "stagnation", "not asymptotic", "outlier",   "by hand", ""};
     return names[flag];
 }

@@ -69,15 +69,12 @@ static void flag_corners(const struct br_orders *o, struct br_quantity_orders *o
     }
 }
 
-/* Why no joint fit takes a row: by the source, or by its lines; BR_FLAG_NONE: it does. */
-static enum br_flag left_out(const struct br_orders *o, const struct br_quantity_orders *of,
-                             size_t row)
+/* Why no joint fit takes a row, by its number or by its lines; BR_FLAG_NONE: it does. */
+static enum br_flag left_out(const struct br_quantity_orders *of, const struct br_point *number)
 {
-    enum br_flag flag = o->numbers->row[row].out[of->quantity];
-    if (!flag && !br_orders_counts(of, &o->numbers->row[row]))
-        flag = BR_FLAG_FAILED;
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_point *p = point_on(of, (enum br_axis)axis, row);
+    enum br_flag flag = !number->flag && !isfinite(number->error) ? BR_FLAG_FAILED : number->flag;
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
+        const struct br_point *p = point_on(of, axis, number->row);
         flag = flag || !p ? flag : p->flag;
     }
     return flag;
@@ -87,33 +84,24 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
                                struct br_error *err)
 {
     const struct br_numbers *numbers = o->numbers;
-    struct br_observation *observation = br_allocate(numbers->rows, sizeof *observation);
-    size_t count = 0, at = 0;
+    struct br_point *point = br_allocate(numbers->rows, sizeof *point);
+    size_t count = 0;
     of->flag = of->flag ? of->flag : br_allocate(numbers->rows, sizeof *of->flag);
-    enum br_status status = observation && of->flag ? BR_OK : br_no_memory(err, "the joint fit");
+    enum br_status status = point && of->flag ? BR_OK : br_no_memory(err, "the joint fit");
     for (size_t i = 0; i < numbers->rows && !status; i++) {
-        const struct br_numbers_row *row = &numbers->row[i];
-        if (left_out(o, of, i) == BR_FLAG_NONE)
-            observation[count++] = (struct br_observation){
-                .x = {row->z[BR_AXIS_SPACE], row->z[BR_AXIS_TIME]},
-                .ref = {row->against[BR_AXIS_SPACE], row->against[BR_AXIS_TIME]},
-                .error = row->number[of->quantity],
-                .rounding = br_orders_rounding(o, of->quantity, row)};
+        point[count] = br_orders_point(o, of->quantity, i);
+        const enum br_flag flag = left_out(of, &point[count]);
+        of->flag[i] = flag ? flag : of->flag[i];
+        count += !flag;
     }
     /* Rows are only left out, so the same number means the same rows. */
     if (!status && !(count > 0 && count == of->joint.points + of->joint.left_out)) {
-        if (numbers->fitted)
-            of->joint = *numbers->fitted;
-        else
-            status = br_joint_fit_solve(observation, count, !numbers->powers, numbers->observer,
-                                        &of->joint, err);
-        for (size_t i = 0; i < numbers->rows && !status; i++) {
-            of->flag[i] = left_out(o, of, i);
-            if (of->flag[i] == BR_FLAG_NONE)
-                of->flag[i] = observation[at++].flag;
-        }
+        status =
+            br_joint_fit_solve(point, count, !numbers->powers, numbers->observer, &of->joint, err);
+        for (size_t i = 0; i < count && !status; i++)
+            of->flag[point[i].row] = point[i].flag;
     }
-    free(observation);
+    free(point);
     return status;
 }
 
@@ -168,7 +156,6 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     c->factor = (struct br_estimate){exp(by->order.value), exp(by->order.low), exp(by->order.high)};
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].flag = by->point[i].flag;
-        c->point[i].used = by->point[i].used;
         c->point[i].lost = false;
     }
     c->used = by->used;
@@ -307,7 +294,7 @@ static bool falls(const struct br_case *c)
     bool smaller = true;
     double before = INFINITY;
     for (size_t i = 0; i < c->points; i++)
-        if (c->point[i].used || (c->point[i].lost && !br_order_determined(&c->order))) {
+        if (!c->point[i].flag || (c->point[i].lost && !br_order_determined(&c->order))) {
             smaller = smaller && c->point[i].error < before;
             before = c->point[i].error;
         }
@@ -350,7 +337,7 @@ static bool is_hidden(const struct br_orders *o, const struct br_quantity_orders
                           *alone = finest_of(&of->differences[other].observed);
     const double p = br_quantity_of(o, of)->formal[other];
     return finest && alone &&
-           alone->error * pow(o->numbers->row[line->row[0]].z[other], p) >
+           alone->error * pow(o->numbers->row[line->observed.point->row].z[other], p) >
                share * finest->error * (pow(alone->z, p) - pow(alone->z_against, p));
 }
 
@@ -383,16 +370,13 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     return are_better(&alone, &grid) ? alone : grid;
 }
 
-/* The finest row of a line that has a number; the number of rows: there is none. */
-static size_t finest_row(const struct br_orders *o, const struct br_quantity_orders *of,
-                         const struct br_orders_line *line)
+/* The finest value of a line; NULL: none is a number. */
+static const struct br_point *finest_value(const struct br_orders_line *line)
 {
-    for (size_t i = line->observed.points + 1; i-- > 0;) {
-        const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
-        if (!row->failure && !isnan(row->number[of->quantity]))
-            return line->row[i];
-    }
-    return o->numbers->rows;
+    const struct br_point *p = line->observed.point + line->observed.points;
+    while (isnan(p->value) && p > line->observed.point)
+        p--;
+    return isnan(p->value) ? NULL : p;
 }
 
 /* The limit over both axes, from the finest value at which lines of both end. */
@@ -401,20 +385,20 @@ static struct br_grid_limit limit_of_grid(const struct br_orders *o,
 {
     for (size_t row = o->numbers->rows; row-- > 0;) {
         struct br_limit_along along[BR_AXES];
+        double value = NAN;
         int found = 0;
         for (const struct br_orders_line *line = of->line + 1; line < of->line + of->lines;
              line++) {
-            const size_t next = finest_row(o, of, line - 1);
-            if (finest_row(o, of, line) == row && line[-1].axis == line->axis &&
-                next < o->numbers->rows) {
-                along[line->axis] =
-                    (struct br_limit_along){line->limits.limit, line[-1].limits.limit,
-                                            o->numbers->row[next].number[of->quantity]};
-                found |= 1 << line->axis;
-            }
+            const struct br_point *finest = finest_value(line), *next = finest_value(line - 1);
+            if (!finest || finest->row != row || !next || line[-1].axis != line->axis)
+                continue;
+            along[line->axis] =
+                (struct br_limit_along){line->limits.limit, line[-1].limits.limit, next->value};
+            value = finest->value;
+            found |= 1 << line->axis;
         }
         if (found == 3)
-            return br_limit_of_grid(o->numbers->row[row].number[of->quantity], along);
+            return br_limit_of_grid(value, along);
     }
     return (struct br_grid_limit){.value = {NAN, NAN, NAN}, .order = NAN};
 }
@@ -430,8 +414,6 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = br_orders_add_lines(o, of, (enum br_axis)axis, err);
-    for (int axis = 0; axis < BR_AXES && !status; axis++)
-        status = br_orders_add_differences(o, of, (enum br_axis)axis, err);
     if (!status)
         status = observe_all(o, of, err);
     for (int axis = 0; axis < BR_AXES && !status; axis++)
@@ -473,26 +455,32 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal, s
     return status;
 }
 
-enum br_status br_orders_renew(struct br_orders *o, enum br_axis axis, struct br_error *err)
+enum br_status br_orders_begin_differences(const struct br_orders *o, struct br_quantity_orders *of,
+                                           enum br_axis axis, size_t points, struct br_error *err)
 {
-    enum br_status status = BR_OK;
-    for (struct br_quantity_orders *of = o->of; of < o->of + o->count && !status; of++) {
-        free(of->differences[axis].observed.point);
-        of->differences[axis] = (struct br_orders_line){0};
-        status = br_orders_add_differences(o, of, axis, err);
-        of->answer[axis] = find_answer(o, of, axis);
-    }
-    return status;
+    struct br_orders_line *line = &of->differences[axis];
+    free(line->observed.point);
+    *line = (struct br_orders_line){.axis = axis};
+    return points ? br_orders_begin_case(o, of->quantity, axis, points, &line->observed, err)
+                  : BR_OK;
+}
+
+enum br_status br_orders_renew(const struct br_orders *o, struct br_quantity_orders *of,
+                               enum br_axis axis, struct br_error *err)
+{
+    struct br_case *c = &of->differences[axis].observed;
+    if (c->point && br_case_observe(c, BR_ORDERS_LEAST, err))
+        return err->status;
+    of->answer[axis] = find_answer(o, of, axis);
+    return BR_OK;
 }
 
 void br_orders_clear(struct br_orders *o)
 {
     for (size_t i = 0; i < o->count; i++) {
         for (size_t l = 0; l < o->of[i].lines; l++) {
-            free(o->of[i].line[l].row);
             free(o->of[i].line[l].observed.point);
             br_limits_clear(&o->of[i].line[l].limits);
-            free(o->of[i].line[l].finest_of);
         }
         free(o->of[i].line);
         free(o->of[i].flag);

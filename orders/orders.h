@@ -16,13 +16,6 @@
 
 /* ---- numbers: they come from a source (request.h) ---- */
 
-/* Differences of successive sizes of one axis, from coarse to fine, at one size of the other axis,
- * whose error they do not have. What br_case_observe needs of each point is set. */
-struct br_differences {
-    struct br_point *point; /* NULL: there are none; owned */
-    size_t points;
-};
-
 /* A column of numbers that is studied. */
 struct br_quantity {
     char *name;    /* owned */
@@ -35,7 +28,6 @@ struct br_quantity {
     /* What a source knows besides; zeros: nothing. */
     double formal[BR_AXES]; /* the order of theory: errors that do not fall, or fall slowly and
                                unevenly, show none then */
-    struct br_differences differences[BR_AXES];
 };
 
 /* One run of the program that made the numbers. */
@@ -49,7 +41,6 @@ struct br_numbers_row {
     double *number;          /* by quantity; NaN: missing; owned */
     double *deviation; /* the standard deviation of each, where it is a mean; NaN, or no array:
                           it is none; within `number` */
-    bool *absent;      /* by quantity: its study has no such row; NULL: none lacks; owned */
     size_t repeat;     /* of a run: which of its cell; of a mean: how many; 0: one run */
     size_t line;       /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
@@ -79,11 +70,10 @@ struct br_numbers {
                     rows that are out, without a floor: joint fits have no other laws, lines leave
                     no row out of them, and only the two finest lines along an axis of known theory
                     have an order */
-    const struct br_joint_fit *fitted; /* their joint fit, where it is known; NULL: it is not */
-    double dimension;                  /* of the mesh, where unknowns or cells are counted */
-    bool assumed;                      /* nobody stated it */
-    bool samples;                      /* n counts samples, and not elements */
-    bool all_needed;                   /* a verdict fails where a number is missing */
+    double dimension;      /* of the mesh, where unknowns or cells are counted */
+    bool assumed;          /* nobody stated it */
+    bool samples;          /* n counts samples, and not elements */
+    bool all_needed;       /* a verdict fails where a number is missing */
     const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict
                               on it; NULL: nothing is */
     const char *taken;     /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
@@ -111,7 +101,6 @@ void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_r
                      enum br_axis axis, char text[64]);
 
 /* "n = 8, k = 0.1" */
-enum { BR_CELL_NAME = 2 * 64 + 2 };
 void br_numbers_name_cell(const struct br_numbers *numbers, const struct br_numbers_row *row,
                           char text[BR_CELL_NAME]);
 
@@ -131,12 +120,10 @@ enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br
 struct br_orders_line {
     enum br_axis axis;
     char at[64]; /* "k = 0.01"; "": the other axis is not refined, or tied to this one */
-    size_t *row; /* indices of rows, from coarse to fine: observed.points of them, for a value one
-                    more; owned */
-    struct br_case observed; /* for a value: its differences from the next finer one */
+    struct br_case observed; /* of a value, the differences from the next finer one; then the
+                                finest value stands behind its points */
     /* For a value, from all its rows that have a number: */
     struct br_limits limits;
-    double *finest_of; /* the finest size of each of its triples, as it is stated; owned */
 };
 
 /* The position of a row on a line; line: NULL, it is on none. */
@@ -194,28 +181,33 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
 
-/* Finds the answers along an axis anew, after its differences have changed in the numbers. */
-enum br_status br_orders_renew(struct br_orders *orders, enum br_axis axis, struct br_error *err);
+/* Makes room for differences of successive sizes of one axis, from coarse to fine, at one size of
+ * the other axis, whose error they do not have: points of of->differences[axis] (0: there are
+ * none), of which the caller sets what br_case_observe needs. br_orders_renew then finds the answer
+ * along that axis anew. Both fail with BR_NO_MEMORY. */
+enum br_status br_orders_begin_differences(const struct br_orders *orders,
+                                           struct br_quantity_orders *of, enum br_axis axis,
+                                           size_t points, struct br_error *err);
+enum br_status br_orders_renew(const struct br_orders *orders, struct br_quantity_orders *of,
+                               enum br_axis axis, struct br_error *err);
 
 /* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the
  * finest, with their limits, but not their orders (lines.c, for br_orders_find). */
 enum { BR_ORDERS_LEAST = 3 /* sizes of a line, for an order with an interval */ };
 enum br_status br_orders_add_lines(const struct br_orders *orders, struct br_quantity_orders *of,
                                    enum br_axis axis, struct br_error *err);
-enum br_status br_orders_add_differences(const struct br_orders *orders,
-                                         struct br_quantity_orders *of, enum br_axis axis,
-                                         struct br_error *err);
+enum br_status br_orders_begin_case(const struct br_orders *orders, size_t quantity,
+                                    enum br_axis axis, size_t points, struct br_case *c,
+                                    struct br_error *err);
 
 /* br_case_observe of a line over sizes of this column. Errors over degrees that are few, or have
  * few digits, may fit powers of 1/(degree + 1) as well as exponential convergence. */
 enum br_status br_orders_observe(const struct br_resolution_column *size, size_t least,
                                  struct br_case *c, struct br_error *err);
 
-/* Whether a row has an error that a joint fit can take; half a unit of its last digit, 0 where it
- * was not printed. */
-bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row);
-double br_orders_rounding(const struct br_orders *orders, size_t quantity,
-                          const struct br_numbers_row *row);
+/* The number of a row as a point, before it has a size along a line, its label and, of a value, a
+ * difference from a finer one. */
+struct br_point br_orders_point(const struct br_orders *orders, size_t quantity, size_t row);
 
 /* The case of a grid of errors in an axis: the order of the joint fit, with the error at each size
  * that is at the finest size of the other axis. Fails with BR_NO_MEMORY; free its points even

@@ -140,7 +140,7 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
     if (br_roles_check_words(r, column, err))
         return err->status;
     for (size_t i = 0; i < n->rows && r->groups > 1; i++) {
-        n->row[i].absent[quantity] = true;
+        n->row[i].out[quantity] = BR_FLAG_ABSENT;
         n->row[i].number[quantity] = NAN;
     }
     for (size_t i = 0; i < r->rows; i++) {
@@ -149,8 +149,7 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
         struct br_numbers_row *row = &n->row[s->cell[i]];
         row->number[quantity] = r->column[column].number[i];
         row->deviation[quantity] = deviation_at(r, i, column);
-        if (row->absent)
-            row->absent[quantity] = false;
+        row->out[quantity] = BR_FLAG_NONE;
     }
     if (r->means)
         take_means(s, group, column, quantity);
@@ -392,9 +391,6 @@ static enum br_status make_room(struct source *s, struct br_error *err)
     for (size_t i = 0; i < r->rows; i++)
         if (!r->dropped[i])
             n->row[s->cell[i]].line = s->fields.line[i];
-    for (size_t i = 0; i < n->rows && r->groups > 1; i++)
-        if (!(n->row[i].absent = br_allocate(studied * r->groups + 1, sizeof(bool))))
-            return br_no_memory(err, "the table");
     return BR_OK;
 }
 

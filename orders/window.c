@@ -70,6 +70,12 @@ static enum br_status refuse_size(const struct br_numbers *n, const char *path,
                    item->text, expected);
 }
 
+static void leave(struct br_numbers_row *row, size_t quantity)
+{
+    if (row->out[quantity] != BR_FLAG_ABSENT)
+        row->out[quantity] = BR_FLAG_BY_HAND;
+}
+
 /* Leaves out the rows of a size: all that have its name, since sizes are printed to six digits. */
 static void leave_out(struct br_numbers *n, enum br_axis axis, const struct br_numbers_row *size)
 {
@@ -78,7 +84,7 @@ static void leave_out(struct br_numbers *n, enum br_axis axis, const struct br_n
     for (size_t i = 0; i < n->rows; i++) {
         br_numbers_name(n, &n->row[i], axis, other);
         for (size_t q = 0; q < n->quantities && strcmp(other, name) == 0; q++)
-            n->row[i].out[q] = BR_FLAG_BY_HAND;
+            leave(&n->row[i], q);
     }
 }
 
@@ -126,7 +132,7 @@ static bool has_part(const struct br_numbers *n, size_t row, size_t q, enum br_a
 {
     const struct br_numbers_row *r = &n->row[row];
     return n->column[axis] && !r->failure && isfinite(r->number[q]) && isfinite(r->z[axis]) &&
-           r->out[q] != BR_FLAG_BY_HAND;
+           br_has_part(r->out[q]);
 }
 
 /* The sizes of a quantity along an axis, from fine to coarse. */
@@ -163,7 +169,7 @@ static void keep_finest(struct br_numbers *n, size_t q, size_t finest, double *z
                       both ? " " : "", both ? n->column[axis]->name : "");
     for (size_t i = 0; i < n->rows; i++)
         if (n->row[i].z[0] > coarsest[0] || n->row[i].z[1] > coarsest[1])
-            n->row[i].out[q] = BR_FLAG_BY_HAND;
+            leave(&n->row[i], q);
 }
 
 static enum br_status check_finest(const struct br_numbers *n, const char *path, double finest,

@@ -14,17 +14,17 @@
  */
 static const double tie = 1e-6;
 
-static bool counts(const struct br_work_point *p)
+static bool counts(const struct br_point *p)
 {
     return isfinite(p->error) && isfinite(p->cost);
 }
 
-static bool is_cheaper(const struct br_work_point *a, const struct br_work_point *b)
+static bool is_cheaper(const struct br_point *a, const struct br_point *b)
 {
     return a->cost < b->cost || (!(a->cost > b->cost) && a->effort < b->effort);
 }
 
-size_t br_work_cheapest(const struct br_work_point *p, size_t count, double target, size_t program,
+size_t br_work_cheapest(const struct br_point *p, size_t count, double target, size_t program,
                         size_t other)
 {
     size_t best = count;
@@ -36,14 +36,14 @@ size_t br_work_cheapest(const struct br_work_point *p, size_t count, double targ
 }
 
 /* Whether b is better than a; of equals the earlier is better. */
-static bool is_beaten(const struct br_work_point *a, const struct br_work_point *b)
+static bool is_beaten(const struct br_point *a, const struct br_point *b)
 {
     if (b->cost < a->cost)
         return b->error <= (1 + tie) * a->error;
     return b->cost <= a->cost && (b->error < a->error || (b->error <= a->error && b < a));
 }
 
-void br_work_front(struct br_work_point *p, size_t count)
+void br_work_front(struct br_point *p, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         p[i].front = p[i].own = counts(&p[i]);
@@ -55,7 +55,7 @@ void br_work_front(struct br_work_point *p, size_t count)
     }
 }
 
-size_t br_work_next(const struct br_work_point *p, size_t count, size_t last)
+size_t br_work_next(const struct br_point *p, size_t count, size_t last)
 {
     const double after = last < count ? p[last].cost : -INFINITY;
     size_t next = count;
@@ -325,13 +325,16 @@ static void take_points(struct br_work_precision *w, const struct member *m)
     p->point = w->point + w->points;
     snprintf(p->name, sizeof p->name, "%s%.99s", m->source->name, m->of);
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++) {
-        if (row->absent && row->absent[m->error])
+        if (row->out[m->error] == BR_FLAG_ABSENT)
             continue;
-        struct br_work_point *at = &w->point[w->points];
-        *at = (struct br_work_point){.program = w->programs, .error = row->number[m->error]};
-        at->cost = cost_at(m, row, &at->half);
-        at->z = axis < BR_AXES ? row->z[axis] : (double)NAN;
-        at->is_start = isfinite(row->seconds) && at->cost <= at->half; /* no more is left of it */
+        struct br_point *at = &w->point[w->points];
+        *at = (struct br_point){.row = (size_t)(row - n->row),
+                                .z = axis < BR_AXES ? row->z[axis] : (double)NAN,
+                                .error = row->number[m->error],
+                                .program = w->programs};
+        at->cost = cost_at(m, row, &at->cost_half);
+        at->is_start =
+            isfinite(row->seconds) && at->cost <= at->cost_half; /* no more is left of it */
         br_numbers_name_cell(n, row, at->label);
         if (isfinite(at->error) && at->error > 0 && isfinite(at->cost)) {
             w->points++;
@@ -350,7 +353,7 @@ static void take_points(struct br_work_precision *w, const struct member *m)
 }
 
 /* The exponent of the costs between a point and the next finer one. */
-static double exponent(const struct br_work_point *p)
+static double exponent(const struct br_point *p)
 {
     return log(p[1].cost / p[0].cost) / log(p[0].z / p[1].z);
 }
@@ -359,7 +362,7 @@ static double exponent(const struct br_work_point *p)
 static void find_starts(struct br_work_program *program)
 {
     static const double hardly = 0.5;
-    struct br_work_point *p = program->point;
+    struct br_point *p = program->point;
     double most = 0;
     for (size_t i = 0; i + 1 < program->points; i++)
         most = fmax(most, exponent(&p[i]));
@@ -374,8 +377,8 @@ static enum br_status check_growth(const struct br_work_precision *w, const stru
                                    const struct br_work_program *program, struct br_error *err)
 {
     static const double clearly = 0.9;
-    const struct br_work_point *p = program->point, *last = p + program->points - 1;
-    if (!program->points || !(last->cost + last->half < clearly * (p->cost - p->half)))
+    const struct br_point *p = program->point, *last = p + program->points - 1;
+    if (!program->points || !(last->cost + last->cost_half < clearly * (p->cost - p->cost_half)))
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT,
                    "%s: %s falls from %.3g at %s to %.3g%s%s at %s, expected a cost that grows "
@@ -388,43 +391,34 @@ static enum br_status check_growth(const struct br_work_precision *w, const stru
 
 enum line { COST_OVER_SIZE, ERROR_OVER_SIZE, ERROR_OVER_COST };
 
-static int by_size(const void *a, const void *b)
-{
-    const struct br_point *x = a, *y = b;
-    return (x->z < y->z) - (x->z > y->z);
-}
-
 /* The order along the points of a program. Costs are without its start, and without the sizes that
  * are mostly that; over costs, of the points of its own front. */
 static enum br_status find_order(struct br_work_program *program, enum line what,
                                  struct br_estimate *order, struct br_error *err)
 {
     static const double least = 0.05; /* of the finest error, a floor that a forecast would miss */
-    const struct br_work_point *p = program->point;
-    const size_t count = program->points;
-    struct br_point *at = br_allocate(count + 1, sizeof *at);
+    struct br_point *at = br_allocate(program->points + 1, sizeof *at);
     struct br_line_order found;
     size_t taken = 0;
     if (!at)
         return br_no_memory(err, "the costs");
-    for (size_t i = 0; i < count; i++) {
-        const double cost = p[i].cost - program->start;
-        const bool small = p[i].is_start || cost <= 2 * p[i].half;
-        if (what == COST_OVER_SIZE && !small && !isnan(p[i].z))
-            at[taken++] = (struct br_point){
-                .z = p[i].z, .error = 1 / cost, .deviation = p[i].half / 2 / pow(cost, 2)};
-        else if (what == ERROR_OVER_SIZE && !isnan(p[i].z))
-            at[taken++] = (struct br_point){.z = p[i].z, .error = p[i].error};
-        else if (what == ERROR_OVER_COST && !small && p[i].own)
-            at[taken++] = (struct br_point){.z = 1 / cost, .error = p[i].error};
+    for (const struct br_point *p = program->point; p < program->point + program->points; p++) {
+        const double cost = p->cost - program->start;
+        const bool small = p->is_start || cost <= 2 * p->cost_half;
+        at[taken] = *p;
+        if (what == COST_OVER_SIZE) {
+            at[taken].error = 1 / cost;
+            at[taken].deviation = p->cost_half / 2 / pow(cost, 2);
+        } else if (what == ERROR_OVER_COST)
+            at[taken].z = 1 / cost;
+        taken += !isnan(at[taken].z) && (what == ERROR_OVER_SIZE || !small) &&
+                 (what != ERROR_OVER_COST || p->own);
     }
-    qsort(at, taken, sizeof *at, by_size);
+    qsort(at, taken, sizeof *at, br_by_size);
     const enum br_status status = br_line_order_find(at, taken, &found, err);
     *order = br_order_determined(&found.order) ? found.order : (struct br_estimate){NAN, NAN, NAN};
-    for (size_t i = 0; i < count && !status && what == COST_OVER_SIZE; i++)
-        for (size_t k = found.first; k < taken && k <= found.last; k++)
-            if (k == found.outlier && at[k].z == p[i].z)
-                strcpy(program->odd, p[i].label);
+    if (!status && what == COST_OVER_SIZE && found.outlier < taken && found.outlier <= found.last)
+        strcpy(program->odd, at[found.outlier].label);
     if (!status && what == ERROR_OVER_SIZE && isfinite(found.order.value)) {
         const enum br_flag flag = br_line_order_flag(&found, at, taken - 1);
         program->stalls = found.floor > least * at[taken - 1].error ||
@@ -439,7 +433,7 @@ static void foresee(struct br_work_program *p, const struct br_numbers *n,
                     const struct br_estimate *order)
 {
     static const double most = 100; /* times finer: nobody knows more */
-    const struct br_work_point *finest = &p->point[p->points - 1];
+    const struct br_point *finest = &p->point[p->points - 1];
     const double next = pow(10, ceil(log10(finest->error)) - 1);
     p->wanted = finest->error > 1e-6 ? 1e-6 : next;
     if (!(pow(finest->error / p->wanted, 1 / order->value) <= most))
@@ -451,8 +445,8 @@ static void foresee(struct br_work_program *p, const struct br_numbers *n,
     const double given = br_numbers_given(c, finest->z / finer, n->dimension);
     const double cost = finest->cost - p->start;
     p->needed.value = p->start + cost * pow(less, p->growth.value / order->value);
-    p->needed.low = p->start + (cost - finest->half) * pow(less, p->growth.low / order->high);
-    p->needed.high = p->start + (cost + finest->half) * pow(less, p->growth.high / order->low);
+    p->needed.low = p->start + (cost - finest->cost_half) * pow(less, p->growth.low / order->high);
+    p->needed.high = p->start + (cost + finest->cost_half) * pow(less, p->growth.high / order->low);
     snprintf(p->at, sizeof p->at, c->is_size ? "%s = %.3g" : "%s = %.0f", c->name, given);
 }
 

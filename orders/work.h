@@ -1,37 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a digit costs: errors over costs of several programs, a work-precision diagram. */
+/* What a digit costs: errors over costs of several programs, a work-precision diagram. A point is a
+ * run of a program at one size; without an error or a cost (NaN) it does not count. */
 #ifndef BR_ORDERS_WORK_H
 #define BR_ORDERS_WORK_H
 
 #include "orders/orders.h"
 
-/* A run of a program at one size. Without an error or a cost (NaN) it does not count. */
-struct br_work_point {
-    size_t program; /* its place in a list */
-    double error, cost;
-    double half;   /* of the 95 % interval of the cost; 0: it does not scatter */
-    double effort; /* of equal costs the smaller effort is cheaper */
-    bool front;    /* it is on the Pareto front of all; set by br_work_front */
-    bool own;      /* on that of its program; likewise */
-    /* Of br_work_find: */
-    double z;                 /* the size, where one is refined; NaN: both are */
-    char label[BR_CELL_NAME]; /* "n = 32" */
-    bool is_start;            /* its cost is mostly the start of the program */
-};
-
 /* The cheapest point of a program (SIZE_MAX: of all but `other`) whose error is at most the target;
  * of equals the first. `count`: there is none. */
-size_t br_work_cheapest(const struct br_work_point *point, size_t count, double target,
-                        size_t program, size_t other);
+size_t br_work_cheapest(const struct br_point *point, size_t count, double target, size_t program,
+                        size_t other);
 
-/* Marks the points of the Pareto fronts: no other one is better in error or cost and at least as
- * good in the other; of equals the first is marked. The error of a dearer point must be smaller by
- * more than a millionth. */
-void br_work_front(struct br_work_point *point, size_t count);
+/* Marks the points of the Pareto fronts (front, own): no other one is better in error or cost and
+ * at least as good in the other; of equals the first is marked. The error of a dearer point must be
+ * smaller by more than a millionth. */
+void br_work_front(struct br_point *point, size_t count);
 
 /* The point of the front of all that is the next dearer one after `last`; count: the first, and the
  * end. */
-size_t br_work_next(const struct br_work_point *point, size_t count, size_t last);
+size_t br_work_next(const struct br_point *point, size_t count, size_t last);
 
 /* ---- of the numbers of programs ---- */
 
@@ -48,21 +35,21 @@ void br_work_name_sources(struct br_work_source *source, size_t count);
 
 /* Numbers may be NaN: not known. */
 struct br_work_program {
-    char name[400];              /* "fd", "table [method = P1]" */
-    enum br_axis axis;           /* along which it is refined alone; BR_AXES: there is none */
-    struct br_estimate growth;   /* the cost grows as the size to the power -growth */
-    struct br_estimate tenth;    /* a tenth of the error costs so many times as much */
-    double wanted;               /* 1e-6, or the next power of ten that it does not reach */
-    struct br_estimate needed;   /* what that costs, if both orders stay, */
-    char at[64];                 /* and its size, "n = 1024" */
-    double start;                /* of the program, part of each of its costs */
-    char starts[BR_CELL_NAME];   /* up to this size the cost is mostly the start; "": nowhere */
-    char odd[BR_CELL_NAME];      /* the cost there is no part of the growth; "": all are */
-    bool stalls;                 /* the finest errors no longer fall: no forecast */
-    struct br_work_point *point; /* from coarse to fine; borrowed */
-    size_t points, failed;       /* runs with error and cost; without */
-    char first[BR_CELL_NAME];    /* the first that failed, */
-    const char *failure;         /* and why; borrowed */
+    char name[400];            /* "fd", "table [method = P1]" */
+    enum br_axis axis;         /* along which it is refined alone; BR_AXES: there is none */
+    struct br_estimate growth; /* the cost grows as the size to the power -growth */
+    struct br_estimate tenth;  /* a tenth of the error costs so many times as much */
+    double wanted;             /* 1e-6, or the next power of ten that it does not reach */
+    struct br_estimate needed; /* what that costs, if both orders stay, */
+    char at[64];               /* and its size, "n = 1024" */
+    double start;              /* of the program, part of each of its costs */
+    char starts[BR_CELL_NAME]; /* up to this size the cost is mostly the start; "": nowhere */
+    char odd[BR_CELL_NAME];    /* the cost there is no part of the growth; "": all are */
+    bool stalls;               /* the finest errors no longer fall: no forecast */
+    struct br_point *point;    /* from coarse to fine; borrowed */
+    size_t points, failed;     /* runs with error and cost; without */
+    char first[BR_CELL_NAME];  /* the first that failed, */
+    const char *failure;       /* and why; borrowed */
 };
 
 /* One quantity of all programs. */
@@ -71,7 +58,7 @@ struct br_work_precision {
     const char *unit, *cost_unit;  /* NULL: none is given; "s", or "": it has none; borrowed */
     bool is_time;
     struct br_work_program *program; /* owned */
-    struct br_work_point *point;     /* program after program, from coarse to fine; owned */
+    struct br_point *point;          /* program after program, from coarse to fine; owned */
     size_t programs, points;
 };
 

@@ -71,12 +71,11 @@ static const char *title_of(const struct br_orders *o, const struct br_quantity_
 static void add_by_hand(struct br_series *marks, const struct br_orders *o,
                         const struct br_quantity_orders *of, const struct br_orders_line *line)
 {
-    const struct br_numbers_row *on = &o->numbers->row[line->row[0]];
     const bool alone = o->tied || !o->numbers->column[!line->axis];
     for (size_t i = 0; i < o->numbers->rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[i];
         if (row->out[of->quantity] == BR_FLAG_BY_HAND && isfinite(row->number[of->quantity]) &&
-            (alone || row->z[!line->axis] == on->z[!line->axis]))
+            (alone || row->z[!line->axis] == line->observed.point->x[!line->axis]))
             br_point_add(marks, row->z[line->axis], row->number[of->quantity],
                          br_flag_name(BR_FLAG_BY_HAND));
     }
@@ -209,10 +208,9 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     const struct br_quantity *q = br_quantity_of(o, of);
     const struct br_gci *g = &line->limits.gci;
     const struct br_estimate *limit = &line->limits.limit.value;
-    const size_t rows = line->observed.points + 1;
-    const struct br_numbers_row *row = o->numbers->row, *finest = NULL;
+    const struct br_point *point = line->observed.point, *finest = NULL;
     char name[MARKUP], x[96];
-    double end = 0;
+    const double end = point->z;
     name_of(q->name, name);
     name_axis(o->numbers, line->axis, x);
     struct br_panel *p = br_panel_add(f, false, x, "%s", "");
@@ -223,17 +221,15 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     const bool curve = g->sequence == BR_MONOTONE_CONVERGENCE && isfinite(limit->low);
     p->margins = true;
     struct br_series *marks = br_series_add(f, curve ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", name);
-    for (size_t i = 0; i < rows; i++) {
-        const struct br_numbers_row *at = &row[line->row[i]];
-        br_point_add(marks, at->z[line->axis], at->number[of->quantity], NULL);
-        finest = isfinite(at->number[of->quantity]) ? at : finest;
-        end = fmax(end, at->z[line->axis]);
+    for (size_t i = 0; i <= line->observed.points; i++) {
+        br_point_add(marks, point[i].z, point[i].value, NULL);
+        finest = isfinite(point[i].value) ? &point[i] : finest;
     }
     const struct br_range values = br_extent(p, true);
     add_by_hand(marks, o, of, line);
     if (!finest)
         return;
-    const double h = finest->z[line->axis], value = finest->number[of->quantity];
+    const double h = finest->z, value = finest->value;
     if (curve)
         add_curve(f, g, h, value, end, name);
     if (isfinite(g->fine.uncertainty)) {

@@ -11,8 +11,8 @@
 #include "base/status.h"
 
 struct br_orders;
-struct br_check;
 struct br_point;
+struct br_check;
 struct br_work_precision;
 
 /* ---- figure.c ---- */

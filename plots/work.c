@@ -8,7 +8,7 @@
 
 enum { MARKUP = 120 };
 
-static void add_point(struct br_series *s, const struct br_work_point *p)
+static void add_point(struct br_series *s, const struct br_point *p)
 {
     br_point_add(s, p->cost, p->error, p->is_start ? "start" : NULL);
 }

@@ -57,10 +57,7 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
             : p->z_against > 0 ? "the next finer one"
                                : "the solution",
             p->error, isnan(p->constant) ? "" : br_format(d, ", constant %.4e", p->constant),
-            p->flag    ? ", left out: "
-            : !p->used ? ", coarser than the errors that are used"
-                       : "",
-            br_flag_name(p->flag));
+            p->flag ? ", left out: " : "", br_flag_name(p->flag));
     }
 }
 
@@ -146,7 +143,7 @@ static void put_point(struct br_document *d, const struct br_check *check, const
     BR_PUT(d, br_count(p->against.steps), .key = "against_steps");
     BR_PUT(d, br_number(p->error), .key = "error");
     BR_PUT(d, br_number(p->constant), .key = "constant");
-    BR_PUT(d, br_truth(p->used), .key = "used");
+    BR_PUT(d, br_truth(!p->flag), .key = "used");
     BR_PUT(d, br_text(br_flag_name(p->flag)), .key = "flag");
     BR_PUT(d, br_text(p->failure), .key = "failure");
     BR_PUT(d, br_text(p->label), .key = "at");

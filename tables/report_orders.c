@@ -172,7 +172,7 @@ static void say_cells_left_out(struct br_document *d, const struct br_orders *o,
                 of->joint.points + of->joint.left_out);
     for (size_t i = 0; i < o->numbers->rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[i];
-        if (of->flag[i] == BR_FLAG_NONE || of->flag[i] == BR_FLAG_BY_HAND)
+        if (of->flag[i] == BR_FLAG_NONE || !br_has_part(of->flag[i]))
             continue;
         name_cell(d, o, row, row, found);
         if (found++ < MOST_CELLS)
@@ -317,15 +317,15 @@ static void say_unstable(struct br_document *d, const struct br_orders_line *lin
 }
 
 /* Values that go up and down, or whose differences grow. */
-static void say_restless(struct br_document *d, const struct br_orders *o,
-                         const struct br_quantity_orders *of, const struct br_orders_line *line)
+static void say_restless(struct br_document *d, const struct br_orders_line *line)
 {
     const enum br_sequence sequence = line->limits.limit.sequence;
+    const struct br_point *point = line->observed.point;
     double v[BR_MOST_SIZES + 1];
     size_t count = 0, turns = 0;
-    for (size_t i = 0; i < line->observed.points + 1; i++) {
-        v[count] = o->numbers->row[line->row[i]].number[of->quantity];
-        count += isfinite(v[count]) ? 1 : 0;
+    for (const struct br_point *p = point; p <= point + line->observed.points; p++) {
+        v[count] = p->value;
+        count += isfinite(p->value) ? 1 : 0;
     }
     for (size_t i = 2; i < count; i++)
         turns += (v[i] - v[i - 1]) * (v[i - 1] - v[i - 2]) < 0;
@@ -350,7 +350,7 @@ static void say_advice(struct br_document *d, const struct br_orders *o,
     if (br_orders_is_grid(o) || isfinite(line->observed.factor.low))
         return;
     if (br_quantity_of(o, of)->is_value)
-        say_restless(d, o, of, line);
+        say_restless(d, line);
     else if (!none)
         say_unstable(d, line);
     else if (!br_orders_stays(line))
@@ -392,11 +392,11 @@ static void put_number(struct br_document *d, const struct br_orders *o,
     const enum br_axis lost = isnan(r->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
     const bool both = n->column[BR_AXIS_SPACE] && n->column[BR_AXIS_TIME] && !o->tied;
     const double found = r->number[of->quantity];
-    const bool absent = r->absent && r->absent[of->quantity];
-    const char *left_out = r->failure || (isnan(found) && !absent) ? br_flag_name(BR_FLAG_FAILED)
-                           : !absent && r->out[of->quantity] == BR_FLAG_BY_HAND
-                               ? br_flag_name(BR_FLAG_BY_HAND)
-                               : "";
+    const enum br_flag out = r->out[of->quantity];
+    const bool failed = r->failure || (isnan(found) && out != BR_FLAG_ABSENT);
+    const char *left_out = br_flag_name(failed             ? BR_FLAG_FAILED
+                                        : br_has_part(out) ? BR_FLAG_NONE
+                                                           : out);
     char prefix[24] = "", name[64]; /* prefix: of the keys, which are unique in a table */
     if (number)
         snprintf(prefix, sizeof prefix, "%zu ", number);
@@ -572,11 +572,10 @@ static void put_triple(struct br_document *d, const struct br_orders *o,
                        size_t triple)
 {
     const struct br_gci *g = &line->limits.triple[triple];
+    const double finest = o->numbers->row[g->row].given[line->axis];
     put_line(d, o, of, line, BR_VARIES);
-    BR_PUT(d, br_number(line->finest_of[triple]), .key = "finest", .heading = "finest of three");
-    br_put_shown(
-        d, "%s",
-        br_numbers_text(o->numbers->column[line->axis], line->finest_of[triple], (char[32]){0}));
+    BR_PUT(d, br_number(finest), .key = "finest", .heading = "finest of three");
+    br_put_shown(d, "%s", br_numbers_text(o->numbers->column[line->axis], finest, (char[32]){0}));
     BR_PUT(d, br_number(g->order), .key = "p", .format = "%.4f");
     BR_PUT(d, br_number(g->fine.index), .key = "gci_fine", .heading = "GCI fine", .format = "%.3e");
     BR_PUT(d, br_number(g->asymptotic), .key = "asymptotic", .heading = "asymptotic ratio",

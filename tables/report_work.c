@@ -37,10 +37,10 @@ struct cheapest {
 static struct cheapest find_cheapest(const struct br_work_precision *w, double target)
 {
     struct cheapest c = {.best = br_work_cheapest(w->point, w->points, target, SIZE_MAX, SIZE_MAX)};
-    const struct br_work_point *a = &w->point[c.best];
+    const struct br_point *a = &w->point[c.best];
     c.next = br_work_cheapest(w->point, w->points, target, SIZE_MAX, a->program);
-    const struct br_work_point *b = &w->point[c.next];
-    c.tied = c.next < w->points && fabs(a->cost - b->cost) <= hypot(a->half, b->half);
+    const struct br_point *b = &w->point[c.next];
+    c.tied = c.next < w->points && fabs(a->cost - b->cost) <= hypot(a->cost_half, b->cost_half);
     return c;
 }
 
@@ -48,7 +48,7 @@ static void answer_digit(struct br_document *d, const struct br_work_precision *
                          double target)
 {
     const struct cheapest c = find_cheapest(w, target);
-    const struct br_work_point *best = &w->point[c.best], *next = &w->point[c.next];
+    const struct br_point *best = &w->point[c.best], *next = &w->point[c.next];
     br_put_answer(d, "%s%s to %s%s%s: %s, %s, %s", several ? w->quantity : "",
                   several ? ": cheapest" : "Cheapest", power_text(d, target), c.tied ? ", " : "",
                   c.tied ? tie_text(w) : "", w->program[best->program].name, best->label,
@@ -73,7 +73,7 @@ static void answer_digits(struct br_document *d, const struct br_work_precision 
 /* next: the cheapest of the other programs; there may be none. */
 static void put_point(struct br_document *d, const struct br_work_precision *w, size_t i, bool next)
 {
-    const struct br_work_point *p = &w->point[i < w->points ? i : 0];
+    const struct br_point *p = &w->point[i < w->points ? i : 0];
     const char *prefix = next ? "next_" : "";
     br_put_blank(d, i >= w->points);
     BR_PUT(d, br_text(w->program[p->program].name), .key = next ? "next" : "program");
@@ -82,7 +82,7 @@ static void put_point(struct br_document *d, const struct br_work_precision *w, 
         BR_PUT(d, br_number(p->error), .key = "error", .unit = w->unit, .format = "%.2e");
     BR_PUT(d, br_number(p->cost), .key = br_format(d, "%scost", prefix), .heading = w->cost,
            .unit = w->cost_unit, .format = *w->cost_unit ? "%.3g" : "%.8g");
-    br_hide(d, br_format(d, "%shalf", prefix), w->cost_unit, br_number(p->half));
+    br_hide(d, br_format(d, "%shalf", prefix), w->cost_unit, br_number(p->cost_half));
     if (!next)
         BR_PUT(d, br_text(p->is_start ? "mostly start" : NULL), .key = "remark",
                .flags = BR_VARIES);

@@ -67,6 +67,7 @@ static void fill(const struct truth *t, double noise, uint64_t seed)
 static void fit(enum br_part part)
 {
     struct br_error err = {0};
+    br_fits_clear(&fits);
     MUST(br_fit(&g.study, part, &fits, &err));
 }
 
@@ -310,23 +311,23 @@ TEST(test_units)
     static const double unit[] = {1, 1e3, 1e-3, 1e6, 1e-6}; /* m in mm, km; s in ms, us */
     static const struct truth truths[] = {
         {20, 2, 0.2, 1, 0.3}, {1e-4, 2, 0.1, 1, -0.9}, {0.06, 1, 0.08, 1, 0.95}};
-    struct br_observation base[CELLS], scaled[CELLS];
+    struct br_point base[CELLS], scaled[CELLS];
     for (size_t i = 0; i < 3 * 4; i++) {
         grid_init(true);
         fill(&truths[i % 3], 0.005, 3 + i);
         const size_t rows = i < 6 ? ROWS : 3;
         struct br_joint_fit first = {0};
         for (size_t j = 0; j < rows * COLUMNS; j++)
-            base[j] = (struct br_observation){
-                .x = {1 / (double)g.cell[j].at.n, 1 / (double)g.cell[j].at.steps},
-                .ref = {1 / 12800.0, 1e-5},
-                .error = g.cell[j].error[BR_PART_TOTAL]};
+            base[j] =
+                (struct br_point){.x = {1 / (double)g.cell[j].at.n, 1 / (double)g.cell[j].at.steps},
+                                  .ref = {1 / 12800.0, 1e-5},
+                                  .error = g.cell[j].error[BR_PART_TOTAL]};
         for (size_t u = 0; u < 5 * 5; u++) {
             const double m = unit[u / 5], s = unit[u % 5], e = u ? 31.6 : 1;
             for (size_t j = 0; j < rows * COLUMNS; j++)
-                scaled[j] = (struct br_observation){.x = {base[j].x[0] * m, base[j].x[1] * s},
-                                                    .ref = {base[j].ref[0] * m, base[j].ref[1] * s},
-                                                    .error = base[j].error * e};
+                scaled[j] = (struct br_point){.x = {base[j].x[0] * m, base[j].x[1] * s},
+                                              .ref = {base[j].ref[0] * m, base[j].ref[1] * s},
+                                              .error = base[j].error * e};
             struct br_error err = {0};
             struct br_joint_fit fit;
             MUST(br_joint_fit_solve(scaled, rows * COLUMNS, false, NULL, &fit, &err));
@@ -399,7 +400,7 @@ enum { SIZES = 5 };
 /* A grid of errors a x^p and b y^q of correlation r, 2 % of noise. */
 static void fit_stranger(const struct truth *t, uint64_t seed, struct br_joint_fit *found)
 {
-    struct br_observation o[SIZES * SIZES] = {{.error = 0}};
+    struct br_point o[SIZES * SIZES] = {{.error = 0}};
     struct br_test_random random = {seed};
     struct br_error err = {0};
     for (size_t i = 0; i < SIZES * SIZES; i++) {
@@ -408,8 +409,8 @@ static void fit_stranger(const struct truth *t, uint64_t seed, struct br_joint_f
         double sum = 0;
         for (int j = 0; j < 12; j++)
             sum += br_test_uniform(&random, -0.5, 0.5);
-        o[i] = (struct br_observation){
-            .x = {x, y}, .error = sqrt(a * a + 2 * t->r * a * b + b * b) * exp(0.02 * sum)};
+        o[i] = (struct br_point){.x = {x, y},
+                                 .error = sqrt(a * a + 2 * t->r * a * b + b * b) * exp(0.02 * sum)};
     }
     MUST(br_joint_fit_solve(o, SIZES * SIZES, true, NULL, found, &err));
 }
@@ -446,7 +447,7 @@ TEST(test_steep_in_k)
 TEST(test_next_term_of_each_axis)
 {
     for (int axis = 0; axis < BR_AXES; axis++) {
-        struct br_observation o[SIZES * SIZES] = {{.error = 0}};
+        struct br_point o[SIZES * SIZES] = {{.error = 0}};
         struct br_joint_fit found;
         struct br_error err = {0};
         for (size_t i = 0; i < SIZES * SIZES; i++) {
@@ -472,7 +473,7 @@ TEST(test_order_that_changes)
         const int axis = turn % 2;
         const size_t sizes = turn < 2 ? 4 : LINE;
         const double at = turn < 2 ? 0.25 : 0.2;
-        struct br_observation o[LINE * LINE] = {{.error = 0}};
+        struct br_point o[LINE * LINE] = {{.error = 0}};
         struct br_joint_fit found;
         struct br_error err = {0};
         for (size_t i = 0; i < sizes * sizes; i++) {
@@ -514,12 +515,12 @@ TEST(test_last_bits)
     enum { CELLS_OF = sizeof error / sizeof *error };
     struct br_joint_fit first = {0}, found;
     for (size_t turn = 0; turn < 6; turn++) {
-        struct br_observation o[CELLS_OF];
+        struct br_point o[CELLS_OF];
         struct br_error err = {0};
         size_t count = 0;
         for (size_t i = 0; i < CELLS_OF; i++)
             if (error[i] > 0)
-                o[count++] = (struct br_observation){
+                o[count++] = (struct br_point){
                     .x = {ldexp(0.1, -(int)(i / 4)), ldexp(0.1, -(int)(i % 4))},
                     .error = turn == 0 ? error[i] : nextafter(error[i], (i + turn) % 3 ? 0 : 1)};
         MUST(br_joint_fit_solve(o, count, true, NULL, turn ? &found : &first, &err));
@@ -542,7 +543,7 @@ TEST(test_interval_of_what_is_not_ruled_out)
     enum { LINE = 6 };
     static const double noise = 0.01, t = 2.0345;
     for (int axis = 0; axis < BR_AXES; axis++) {
-        struct br_observation o[LINE * LINE] = {{.error = 0}};
+        struct br_point o[LINE * LINE] = {{.error = 0}};
         struct br_joint_fit found;
         struct br_error err = {0};
         double l[LINE], x[LINE], mean_l = 0, mean_x = 0, ll = 0, lx = 0, xx = 0;

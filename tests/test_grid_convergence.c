@@ -27,9 +27,9 @@ static void sizes(const double *cells, size_t count, double *h)
 
 static void find_gci(const double *h, const double *value, size_t count, struct br_gci *gci)
 {
-    struct br_line_value three[3];
+    struct br_point three[3];
     for (size_t i = 0; i < 3; i++)
-        three[i] = (struct br_line_value){.h = h[count - 3 + i], .value = value[count - 3 + i]};
+        three[i] = (struct br_point){.z = h[count - 3 + i], .value = value[count - 3 + i]};
     br_gci(three, gci);
 }
 
@@ -221,10 +221,10 @@ TEST(test_zero_value)
 
 static struct br_grid_limit limit_of(const double *h, const double *value, size_t count)
 {
-    struct br_line_value line[MOST];
+    struct br_point line[MOST];
     struct br_grid_limit limit;
     for (size_t i = 0; i < count; i++)
-        line[i] = (struct br_line_value){.h = h[i], .value = value[i]};
+        line[i] = (struct br_point){.z = h[i], .value = value[i]};
     MUST(br_limit_of_values(line, count, &limit, &err));
     return limit;
 }
@@ -317,8 +317,9 @@ TEST(test_one_answer)
     CLOSE(l.order, 2, 0.02);
     CLOSE(l.value.value, 1, 1e-4);
     assert_true(l.value.low <= 1 && 1 <= l.value.high);
-    struct br_line_value rounded[] = {
-        {1, .0752, 0, 5e-5}, {.1, .0791, 0, 5e-5}, {.01, .0792, 0, 5e-5}};
+    struct br_point rounded[] = {{.z = 1, .value = .0752, .rounding = 5e-5},
+                                 {.z = .1, .value = .0791, .rounding = 5e-5},
+                                 {.z = .01, .value = .0792, .rounding = 5e-5}};
     struct br_grid_limit r;
     MUST(br_limit_of_values(rounded, 3, &r, &err));
     AT_MOST(r.value.low, .07915);
@@ -387,15 +388,15 @@ TEST(test_scatter)
         for (size_t count = 3; count < 7; count += br_test_long() ? 1 : 3) {
             size_t scatter = 0, diverges = 0, stated = 0, right = 0;
             for (int trial = 0; trial < TRIALS; trial++) {
-                struct br_line_value line[6];
+                struct br_point line[6];
                 struct br_limits limits;
                 for (size_t i = 0; i < count; i++) {
                     double sum = -6; /* of deviation 1 */
                     for (int j = 0; j < 12; j++)
                         sum += br_test_uniform(&random, 0, 1);
                     const double h = ldexp(1, -(int)i);
-                    line[i] = (struct br_line_value){
-                        .h = h, .value = 1 + slopes[s] * h + 0.05 * sum, .half = 1.96 * 0.05};
+                    line[i] = (struct br_point){
+                        .z = h, .value = 1 + slopes[s] * h + 0.05 * sum, .half = 1.96 * 0.05};
                 }
                 MUST(br_limits_find(line, count, &limits, &err));
                 const struct br_grid_limit *l = &limits.limit;
@@ -424,8 +425,10 @@ TEST(test_scatter)
  * others are of order 1, and go to -1. */
 TEST(test_scatter_of_the_coarsest)
 {
-    static const struct br_line_value line[] = {
-        {8, 15, 10, 0}, {4, 7, 0.1, 0}, {2, 3, 0.1, 0}, {1, 1, 0.1, 0}};
+    static const struct br_point line[] = {{.z = 8, .value = 15, .half = 10},
+                                           {.z = 4, .value = 7, .half = 0.1},
+                                           {.z = 2, .value = 3, .half = 0.1},
+                                           {.z = 1, .value = 1, .half = 0.1}};
     struct br_limits limits;
     MUST(br_limits_find(line, 4, &limits, &err));
     assert_int_equal(limits.triples, 2);
@@ -446,11 +449,11 @@ static enum br_status attempt(const void *data, struct br_error *why)
 
 TEST(test_without_memory)
 {
-    static const struct br_line_value line[] = {{16, 2, 0, 0},
-                                                {8, 1.25, 0, 0},
-                                                {4, 1.0625, 0, 0},
-                                                {2, 1.015625, 0, 0},
-                                                {1, 1.00390625, 0, 0}};
+    static const struct br_point line[] = {{.z = 16, .value = 2},
+                                           {.z = 8, .value = 1.25},
+                                           {.z = 4, .value = 1.0625},
+                                           {.z = 2, .value = 1.015625},
+                                           {.z = 1, .value = 1.00390625}};
     br_test_without_memory(attempt, line, 5);
 }
 

@@ -48,15 +48,23 @@ static void make(struct made *m, double a, double p, double b, double q)
         (struct br_report){.study = &m->study, .fitted = &m->study, .compared = {&m->meshes}};
 }
 
+static void fit(struct br_report *report)
+{
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        MUST(br_fit(report->fitted, part, &report->fits[part], &err));
+}
+
+static void observe(struct br_report *report)
+{
+    fit(report);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        MUST(br_report_observe_orders(report, axis, &err));
+    br_report_clear(report);
+}
+
 static void see(struct made *m)
 {
-    br_report_clear(&m->report);
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        MUST(br_fit(&m->study, part, &m->report.fits[part], &err));
-    }
-    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
-        MUST(br_report_observe_orders(&m->report, axis, &err));
-    br_report_clear(&m->report);
+    observe(&m->report);
 }
 
 static void expect(const struct br_observed_order *observed, double order, const char *remark)
@@ -157,11 +165,9 @@ TEST(test_no_order_of_zero)
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
     struct br_report r = m->report;
-    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
-        MUST(br_report_observe_orders(&r, axis, &err));
+    observe(&r);
     assert_true(r.observed[part][BR_AXIS_SPACE].theory.order == in_h);
     assert_true(r.observed[part][BR_AXIS_TIME].theory.order == in_k);
-    br_report_clear(&r);
 }
 
 TEST(test_theory)
@@ -275,9 +281,11 @@ TEST(test_differences_of_steps)
     assert_false(br_report_settles(&m.report, BR_AXIS_TIME));
     double printed[CELLS]; /* a printed grid cannot be refined */
     m.report.printed = printed;
+    fit(&m.report);
     MUST(br_report_observe_orders(&m.report, BR_AXIS_TIME, &err));
     assert_null(strstr(observed->remark, "may settle it"));
     m.report.printed = NULL;
+    br_report_clear(&m.report);
     /* an order that is not that of theory settles nothing */
     const struct br_study other =
         pairs_of(&m, cell, (double[]){32, 22.627417, 16, 11.3137085, 8, 5.65685425});

@@ -132,7 +132,7 @@ TEST(test_grid)
         for (int axis = 0; axis < BR_AXES; axis++) {
             const struct br_row_point *at = &of->point[axis][row];
             CLOSE(at->line->observed.point[at->index].error, found.numbers.row[row].number[0], 0);
-            assert_int_equal(at->line->row[at->index], row);
+            assert_int_equal(at->line->observed.point[at->index].row, row);
         }
 }
 
@@ -195,8 +195,8 @@ TEST(test_stopped_fits)
     int asked = 0;
     const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
     struct br_joint_fit fit;
-    REFUSED(br_joint_fit_solve(&(struct br_observation){.x = {1, 1}, .error = 1}, 1, true, &stops,
-                               &fit, &err),
+    REFUSED(br_joint_fit_solve(&(struct br_point){.x = {1, 1}, .error = 1}, 1, true, &stops, &fit,
+                               &err),
             BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
         struct br_numbers n = read_with(table_of(5, steps, 2, 1), NULL);
@@ -422,7 +422,7 @@ TEST(test_values)
             for (size_t i = 0; i < line->limits.triples; i++) {
                 CLOSE(line->limits.triple[i].order, p, 1e-8);
                 CLOSE(line->limits.triple[i].fine.limit, limit, 1e-9);
-                CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
+                assert_int_equal(line->limits.triple[i].row, i + 2);
             }
             assert_true(line->limits.limit.value.low <= limit &&
                         line->limits.limit.value.high >= limit);
@@ -918,6 +918,26 @@ TEST(test_blown_up_cells)
         }
         assert_int_equal(of->joint.points, 13);
     }
+}
+
+/* On a grid of two studies one lacks the coarsest mesh, and its finest error is zero. */
+TEST(test_rows_that_a_study_lacks)
+{
+    char text[4096] = "method,h,k,l2\n";
+    for (int i = 0; i < 32; i++) {
+        const double h = pow(2, -i / 4 % 4), k = pow(2, -i % 4);
+        const bool second = i >= 16, zero = second && i % 16 == 15;
+        if (!second || h < 1)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "P%d,%g,%g,%.17g\n",
+                     second + 1, h, k, zero ? 0 : power_law(h, k, 2, 1));
+    }
+    find(text, NULL);
+    const struct br_quantity_orders *of = &found.orders.of[1];
+    for (size_t i = 0; i < 16; i++)
+        assert_int_equal(of->flag[i], i < 4     ? BR_FLAG_ABSENT
+                                      : i == 15 ? BR_FLAG_ROUND_OFF
+                                                : BR_FLAG_NONE);
+    assert_int_equal(of->joint.points, 11);
 }
 
 /* No line has three sizes. */

@@ -260,8 +260,7 @@ static void print_check(FILE *out)
          .error = 0.5,
          .constant = 2.5,
          .label = "n = 4",
-         .flag = BR_FLAG_NONE,
-         .used = false,
+         .flag = BR_FLAG_COARSE,
          .failure = "",
          .fit = {NAN, NAN, NAN}},
         {.at = {8, 16},
@@ -272,7 +271,6 @@ static void print_check(FILE *out)
          .constant = 1.25,
          .label = "n = 8",
          .flag = BR_FLAG_ROUND_OFF,
-         .used = false,
          .failure = "",
          .fit = {NAN, NAN, NAN}},
         {.at = {0, 0},
@@ -283,7 +281,6 @@ static void print_check(FILE *out)
          .constant = 1.125,
          .label = "h = 1",
          .flag = BR_FLAG_NONE,
-         .used = true,
          .failure = "",
          .fit = {NAN, NAN, NAN}},
         {.at = {16, 32},
@@ -294,7 +291,6 @@ static void print_check(FILE *out)
          .constant = NAN,
          .label = "n = 16",
          .flag = BR_FLAG_FAILED,
-         .used = false,
          .failure = "it blew up",
          .fit = {NAN, NAN, NAN}},
     };
@@ -418,7 +414,7 @@ TEST(paper_is_beside_the_cheapest)
     struct br_scene scene = br_test_bundled("example2");
     struct br_trade *t = calloc(1, sizeof *t);
     struct br_trial trial[MADE];
-    struct br_work_point point[MADE];
+    struct br_point point[MADE];
     assert_non_null(t);
     MUST(br_named_methods_read("euler,bdf2", &t->methods, &err));
     t->request = br_trial_request_default(&scene);

@@ -151,6 +151,8 @@ static void compare_fits(struct br_study *a, struct br_study *b, const struct fa
         compare_joint(&x.joint, &y.joint, norm, f);
         for (size_t i = 0; i < br_study_cells(a); i++)
             assert_int_equal(b->cell[i].flag[part], a->cell[i].flag[part]);
+        br_fits_clear(&x);
+        br_fits_clear(&y);
     }
 }
 

@@ -54,7 +54,7 @@ static const struct {
 TEST(test_choices)
 {
     struct br_trial t[MADE];
-    struct br_work_point point[MADE];
+    struct br_point point[MADE];
     for (size_t i = 0; i < MADE; i++)
         t[i] = (struct br_trial){
             .named = &pair[made[i].named],

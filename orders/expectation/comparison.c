@@ -146,7 +146,7 @@ static const char *say_expectation(const struct br_expectation *e, char text[160
 static double constant_of(const struct br_case *c, double shift)
 {
     size_t last = c->points;
-    while (last > 0 && !c->point[last - 1].used)
+    while (last > 0 && c->point[last - 1].flag)
         last--;
     return c->expected.tolerance == 0 && last && isfinite(shift)
                ? c->constant * pow(c->point[last - 1].z, shift)

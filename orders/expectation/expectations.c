@@ -268,7 +268,7 @@ static enum br_status observe(const struct br_orders *o, const struct br_quantit
     memcpy(c->point, line->observed.point, c->points * sizeof *c->point);
     for (size_t i = 0; i < c->points; i++) {
         struct br_point *p = &c->point[i];
-        const enum br_flag out = o->numbers->row[line->row[i]].out[of->quantity];
+        const enum br_flag out = o->numbers->row[p->row].out[of->quantity];
         if (p->flag != BR_FLAG_FAILED && p->error > 0)
             p->flag = out ? out : p->error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     }
@@ -283,8 +283,7 @@ static void need_finest(const struct br_numbers *n, size_t quantity, enum br_axi
     const struct br_numbers_row *finest = NULL;
     char name[BR_CELL_NAME];
     for (const struct br_numbers_row *row = n->row; row < n->row + n->rows; row++)
-        if (!(row->absent && row->absent[quantity]) && row->out[quantity] != BR_FLAG_BY_HAND &&
-            (!finest || row->z[axis] <= finest->z[axis]))
+        if (br_has_part(row->out[quantity]) && (!finest || row->z[axis] <= finest->z[axis]))
             finest = row;
     if (c->verdict != BR_PASS || (!finest->failure && isfinite(finest->number[quantity])))
         return;

@@ -25,13 +25,11 @@ __attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
 
 /* ---- the observation ---- */
 
-static void choose_points(struct br_case *c)
+static void count_used(struct br_case *c)
 {
     c->used = 0;
-    for (size_t i = 0; i < c->points; i++) {
-        c->point[i].used = c->point[i].flag == BR_FLAG_NONE;
-        c->used += c->point[i].used;
-    }
+    for (size_t i = 0; i < c->points; i++)
+        c->used += !c->point[i].flag;
 }
 
 /* A point that is not a number must fail, whatever its flag, unless points may miss. */
@@ -82,7 +80,7 @@ static void find_constants(struct br_case *c)
     for (size_t i = c->points; i-- > 0;) {
         struct br_point *p = &c->point[i];
         p->constant = p->error / (pow(p->z, order) - pow(p->z_against, order));
-        if (p->used && finest++ < BR_VERIFY_MOST_POINTS && !(p->constant <= c->constant))
+        if (!p->flag && finest++ < BR_VERIFY_MOST_POINTS && !(p->constant <= c->constant))
             c->constant = p->constant; /* also where there was none yet */
     }
 }
@@ -101,7 +99,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         c->law = found.law[law] > 0.5 ? law : c->law;
     const bool known = isfinite(found.order.value) || isfinite(found.rate.value);
     for (size_t i = 0; i < c->points && known; i++)
-        if (c->point[i].used) {
+        if (!c->point[i].flag) {
             c->point[i].flag = br_line_order_flag(&found, c->point, i);
             c->point[i].lost = c->point[i].flag != BR_FLAG_NONE;
         }
@@ -116,9 +114,9 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
 static double rate_to(const struct br_case *c, size_t i)
 {
     size_t before = i;
-    while (before > 0 && !c->point[before - 1].used)
+    while (before > 0 && c->point[before - 1].flag)
         before--;
-    return c->point[i].used && before ? br_point_rate(&c->point[before - 1], &c->point[i]) : NAN;
+    return !c->point[i].flag && before ? br_point_rate(&c->point[before - 1], &c->point[i]) : NAN;
 }
 
 /* The orders that the two coarsest points and the two finest ones show by themselves, used or not.
@@ -268,7 +266,7 @@ static void decide_too_few(struct br_case *c)
 static const struct br_point *finest_used(const struct br_case *c)
 {
     const struct br_point *last = c->point + c->points - 1;
-    while (last > c->point && !last->used)
+    while (last > c->point && last->flag)
         last--;
     return last;
 }
@@ -316,7 +314,7 @@ static bool blows_up(const struct br_case *c, const struct br_point *first)
 {
     double largest = 0;
     for (size_t i = 0; i < c->points; i++)
-        largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
+        largest = !c->point[i].flag ? fmax(largest, c->point[i].error) : largest;
     return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest &&
            !scatters(c, (size_t)(first - c->point));
 }
@@ -345,7 +343,7 @@ static void advise_down_to(struct br_case *c, double error)
 {
     size_t left = 0;
     for (size_t i = 0; i < c->points; i++)
-        left += c->point[i].used && c->point[i].error > error;
+        left += !c->point[i].flag && c->point[i].error > error;
     br_append(c->reason, sizeof c->reason,
               ": if that is round-off, or the reference's own error, expect the order 'down to "
               "%.0e'",
@@ -432,7 +430,7 @@ static bool falls_by_two(const struct br_case *c, double low, double high)
     size_t rates = 0;
     for (size_t i = 1; i < c->points; i++) {
         const double rate = rate_to(c, i);
-        if (!c->point[i].used)
+        if (c->point[i].flag)
             continue;
         rates += isfinite(rate) ? 1 : 0;
         if (isnan(rate) && rates == 0) /* the first used point has none before it */
@@ -492,7 +490,7 @@ static void note_two(struct br_case *c)
 static bool is_fast(const struct br_case *c)
 {
     size_t last = c->points - 1;
-    while (last > 0 && !c->point[last].used)
+    while (last > 0 && c->point[last].flag)
         last--;
     return isinf(br_expectation_high(&c->expected)) &&
            rate_to(c, last) >= br_expectation_low(&c->expected);
@@ -566,11 +564,11 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
         c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
         c->point[i].lost = false;
     }
-    choose_points(c);
+    count_used(c);
     find_constants(c);
     const bool known = !first_failed(c) && c->used >= least;
     const enum br_status status = known ? find_order(c, err) : BR_OK;
-    choose_points(c);
+    count_used(c);
     if (of_observed(c))
         find_constants(c);
     list_left_out(c);
@@ -606,7 +604,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
             c->point[i].flag = BR_FLAG_NONE;
     }
     begin_note(c);
-    choose_points(c);
+    count_used(c);
 }
 
 void br_case_decide(struct br_case *c)

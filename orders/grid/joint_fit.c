@@ -312,13 +312,13 @@ static struct br_joint_fit nothing_fitted(size_t points)
 }
 
 /* Cells that the most probable model leaves out; those of a whole size are too coarse. */
-static void flag_cells(const struct br_joint_search *s, struct br_observation *observation)
+static void flag_cells(const struct br_joint_search *s, struct br_point *point)
 {
     const struct br_joint_window *window = &s->window[s->count ? s->candidate[0].window : 0];
     for (size_t i = 0; i < s->all.count; i++)
-        observation[i].flag = !br_joint_is_out(s, window, i)  ? BR_FLAG_NONE
-                              : s->window[1].far && s->far[i] ? BR_FLAG_OUTLIER
-                                                              : BR_FLAG_COARSE;
+        point[i].flag = !br_joint_is_out(s, window, i)  ? BR_FLAG_NONE
+                        : s->window[1].far && s->far[i] ? BR_FLAG_OUTLIER
+                                                        : BR_FLAG_COARSE;
 }
 
 /* All memory of a search; false: there is none. */
@@ -337,10 +337,9 @@ static bool make_room(struct br_joint_search *s)
     return true;
 }
 
-static void fit_all(struct br_joint_search *s, struct br_observation *observation,
-                    struct br_joint_fit *fit)
+static void fit_all(struct br_joint_search *s, struct br_point *point, struct br_joint_fit *fit)
 {
-    br_joint_search(s, observation);
+    br_joint_search(s, point);
     qsort(s->candidate, s->count, sizeof *s->candidate, by_weight);
     while (s->count && !isfinite(s->candidate[s->count - 1].log_weight))
         s->count--;
@@ -350,10 +349,10 @@ static void fit_all(struct br_joint_search *s, struct br_observation *observatio
         take_one(s, fit);
     if (!one_determined(fit))
         *fit = nothing_fitted(s->all.count);
-    flag_cells(s, observation);
+    flag_cells(s, point);
 }
 
-enum br_status br_joint_fit_solve(struct br_observation *observation, size_t count, bool any_model,
+enum br_status br_joint_fit_solve(struct br_point *point, size_t count, bool any_model,
                                   const struct br_observer *observer, struct br_joint_fit *fit,
                                   struct br_error *err)
 {
@@ -363,7 +362,7 @@ enum br_status br_joint_fit_solve(struct br_observation *observation, size_t cou
     *fit = nothing_fitted(count);
     const enum br_status status = make_room(&s) ? BR_OK : br_no_memory(err, "the fits");
     if (!status && count > 0)
-        fit_all(&s, observation, fit);
+        fit_all(&s, point, fit);
     free(s.all.cell);
     free(s.all.size[0]);
     free(s.all.room);

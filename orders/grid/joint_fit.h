@@ -7,6 +7,7 @@
 #include "base/status.h"
 #include "orders/axis.h"
 #include "orders/estimate.h"
+#include "orders/line/line_order.h"
 
 /* The joint model of a grid. The errors of space and of time are fields with
  * signs, so their norms do not add. The reference has a resolution, too:
@@ -40,7 +41,7 @@ struct br_joint_fit {
  */
 bool br_joint_describes(const struct br_joint_fit *fit);
 
-/* The model's error at h and k, m^(3/2); x and ref as in an observation. */
+/* The model's error at h and k, m^(3/2); x and ref as in a point. */
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
                       const double ref[BR_AXES]);
 
@@ -51,20 +52,12 @@ struct br_estimate br_joint_band(const struct br_joint_fit *fit, enum br_axis ax
 
 /* ---- the joint model, fitted to the logarithms of the errors ---- */
 
-/* One cell, as the fit needs it. */
-struct br_observation {
-    double x[BR_AXES];   /* h and k, m and s */
-    double ref[BR_AXES]; /* of the reference; 0: the continuous problem */
-    double error;        /* > 0 */
-    double rounding;     /* half a unit of its last digit; 0: it was not printed */
-    enum br_flag flag;   /* out: why the fit does not rest on it; BR_FLAG_NONE: it does */
-};
-
-/* Fits the model that the observations determine; without a fit, converged is false. Where all
- * observations have h = h_ref, the model has no error of space; where all have k = k_ref, it has
- * none of time. any_model: also with floors and next terms, and of errors that scatter, else powers
- * alone. observer: may be NULL. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
-enum br_status br_joint_fit_solve(struct br_observation *observation, size_t count, bool any_model,
+/* Fits the model that the points determine, of which are read x, ref, error > 0 and rounding;
+ * without a fit, converged is false. flag (out): why the fit does not rest on a point;
+ * BR_FLAG_NONE: it does. Where all have h = h_ref, the model has no error of space; where all have
+ * k = k_ref, it has none of time. any_model: also with floors and next terms, and of errors that
+ * scatter, else powers alone. observer: may be NULL. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
+enum br_status br_joint_fit_solve(struct br_point *point, size_t count, bool any_model,
                                   const struct br_observer *observer, struct br_joint_fit *fit,
                                   struct br_error *err);
 

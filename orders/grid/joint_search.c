@@ -24,8 +24,7 @@ static size_t size_of(const struct br_joint_cells *c, int axis, double x)
 }
 
 /* The different sizes of an axis, ascending, after 0. value: room for two a cell. */
-static void take_sizes(struct br_joint_search *s, const struct br_observation *o, int axis,
-                       double *value)
+static void take_sizes(struct br_joint_search *s, const struct br_point *o, int axis, double *value)
 {
     struct br_joint_cells *c = &s->all;
     for (size_t i = 0; i < c->count; i++) {
@@ -48,7 +47,7 @@ static void take_sizes(struct br_joint_search *s, const struct br_observation *o
     }
 }
 
-static void take_cells(struct br_joint_search *s, const struct br_observation *o)
+static void take_cells(struct br_joint_search *s, const struct br_point *o)
 {
     struct br_joint_cells *c = &s->all;
     double *value = s->residual;
@@ -481,9 +480,9 @@ static void search_all(struct br_joint_search *s)
         }
 }
 
-void br_joint_search(struct br_joint_search *s, const struct br_observation *observation)
+void br_joint_search(struct br_joint_search *s, const struct br_point *point)
 {
-    take_cells(s, observation);
+    take_cells(s, point);
     take_options(s);
     s->used = s->all;
     s->used.cell = s->all.cell + s->all.count;

@@ -47,9 +47,9 @@ struct br_joint_search {
     size_t smooth, options; /* those from `smooth` on are of orders that change */
 };
 
-/* Tries models of these observations: all candidates, in any order. s: its memory, all.count and
+/* Tries models of these points: all candidates, in any order. s: its memory, all.count and
  * any_model are set. */
-void br_joint_search(struct br_joint_search *s, const struct br_observation *observation);
+void br_joint_search(struct br_joint_search *s, const struct br_point *point);
 
 /* Goes to a window: its cells are used from here on. */
 void br_joint_look_at(struct br_joint_search *s, size_t window);

@@ -18,7 +18,7 @@ const char *br_sequence_text(enum br_sequence sequence)
     return texts[sequence];
 }
 
-double br_round_off_of(const struct br_line_value *v, size_t count)
+double br_round_off_of(const struct br_point *v, size_t count)
 {
     double most = 0;
     for (size_t i = 0; i < count; i++)
@@ -92,9 +92,9 @@ static double relative_to(double difference, double value)
 }
 
 /* v[0]: the coarser grid; v[1]: the finer one. order: NaN if there is none. */
-static struct br_gci_pair pair_of(const struct br_line_value *v, double order)
+static struct br_gci_pair pair_of(const struct br_point *v, double order)
 {
-    const double ratio = v[0].h / v[1].h, fine = v[1].value;
+    const double ratio = v[0].z / v[1].z, fine = v[1].value;
     const double step = (fine - v[0].value) / expm1(order * log(ratio)); /* e/(r^p - 1) */
     const double limit = fine + step, uncertainty = safety_observed * fabs(step);
     return (struct br_gci_pair){
@@ -109,7 +109,7 @@ static struct br_gci_pair pair_of(const struct br_line_value *v, double order)
 }
 
 /* Sets sequence and order from three grids. */
-static void check_triplet(const struct br_line_value *v, struct br_gci *gci)
+static void check_triplet(const struct br_point *v, struct br_gci *gci)
 {
     const double e21 = v[1].value - v[2].value, e32 = v[0].value - v[1].value;
     const double zero = br_round_off_of(v, 3);
@@ -119,8 +119,8 @@ static void check_triplet(const struct br_line_value *v, struct br_gci *gci)
         return;
     }
     const struct triplet t = {
-        .ln21 = log(v[1].h / v[2].h),
-        .ln32 = log(v[0].h / v[1].h),
+        .ln21 = log(v[1].z / v[2].z),
+        .ln32 = log(v[0].z / v[1].z),
         .ln_growth = log(fabs(e32)) - log(fabs(e21)),
         .s = (e32 > 0) == (e21 > 0) ? 1 : -1,
     };
@@ -142,9 +142,9 @@ double br_gci_limited(const struct br_gci *gci, double formal)
                                      : NAN;
 }
 
-void br_gci(const struct br_line_value v[3], struct br_gci *gci)
+void br_gci(const struct br_point v[3], struct br_gci *gci)
 {
-    *gci = (struct br_gci){.order = NAN};
+    *gci = (struct br_gci){.order = NAN, .row = v[2].row};
     check_triplet(v, gci);
     const double order = convergent(gci->sequence) ? gci->order : NAN;
     gci->fine = pair_of(v + 1, order);

@@ -4,22 +4,16 @@
  * of Uncertainty Due to Discretization in CFD Applications", J. Fluids Eng. 130, 078001 (2008), and
  * of ASME V&V 20-2009. The limit with its interval is that of limits.h.
  *
- * Values stand from coarse to fine: h is a mesh size or a time step > 0 in any unit, smaller than
- * the one before, with a finite ratio; the quantity there is below DBL_MAX/4. The papers count from
- * the finest grid: their h_1 is the last one. NaN in a result: not known. */
+ * Of a point are read value, half and rounding, and z, the h of the papers. Points stand from
+ * coarse to fine: z > 0 is smaller than the one before, with a finite ratio; the value there is
+ * below DBL_MAX/4. The papers count from the finest grid: their h_1 is the last one. NaN in a
+ * result: not known. */
 #ifndef BR_ORDERS_LIMITS_GRID_CONVERGENCE_H
 #define BR_ORDERS_LIMITS_GRID_CONVERGENCE_H
 
 #include "base/status.h"
 #include "orders/axis.h"
-#include "orders/estimate.h"
-
-/* A value of a line. */
-struct br_line_value {
-    double h, value;
-    double half;     /* half width of its 95 % interval, where it is a mean; 0: it is none */
-    double rounding; /* half a unit of its last digit, where it was printed; 0: it was not */
-};
+#include "orders/line/line_order.h"
 
 /* X(name, text): how a sequence of values behaves. */
 #define BR_SEQUENCE_LIST(X)                                           \
@@ -68,16 +62,17 @@ struct br_gci {
     double order;                    /* p, (3): negative if divergent */
     struct br_gci_pair fine, coarse; /* 21 and 32; without convergence only ratio, difference and
                                         relative are known */
+    size_t row;                      /* of the finest value */
     double asymptotic; /* GCI_32/(r21^p GCI_21), near 1 in the asymptotic range. With monotone
                           convergence it is always |phi_1/phi_2|, so it shows little. */
 };
 
 /* From three grids. An order far above the formal one makes the uncertainty
  * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): compare the orders. */
-void br_gci(const struct br_line_value value[3], struct br_gci *gci);
+void br_gci(const struct br_point value[3], struct br_gci *gci);
 
 /* The round-off that the difference of two values may have. */
-double br_round_off_of(const struct br_line_value *value, size_t count);
+double br_round_off_of(const struct br_point *value, size_t count);
 
 /* The index of the fine grid with the limits of Oberkampf and Roy, Verification and Validation in
  * Scientific Computing (2010), chapter 8: within a tenth of the formal order, that order with a

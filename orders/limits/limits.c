@@ -12,7 +12,7 @@ static const double normal95 = 1.959963984540054; /* half width of a 95 % interv
 /* ---- values that are means ---- */
 
 /* Whether one constant agrees with all values, which are means. */
-static bool agree(const struct br_line_value *v, size_t count)
+static bool agree(const struct br_point *v, size_t count)
 {
     double weights = 0, mean = 0, squares = 0;
     for (size_t i = 0; i < count; i++) {
@@ -25,7 +25,7 @@ static bool agree(const struct br_line_value *v, size_t count)
 }
 
 /* Two differences within the scatter of their values show nothing, and neither does one. */
-static void leave_scatter(struct br_gci *gci, const struct br_line_value *v)
+static void leave_scatter(struct br_gci *gci, const struct br_point *v)
 {
     const bool fine = gci->fine.difference <= hypot(v[1].half, v[2].half),
                coarse = gci->coarse.difference <= hypot(v[0].half, v[1].half);
@@ -41,7 +41,7 @@ static void leave_scatter(struct br_gci *gci, const struct br_line_value *v)
 
 /* ---- a line ---- */
 
-static bool are_constant(const struct br_line_value *v, size_t count)
+static bool are_constant(const struct br_point *v, size_t count)
 {
     for (size_t i = 0; i + 1 < count; i++)
         if (!(fabs(v[i].value - v[i + 1].value) <= br_round_off_of(v, count)))
@@ -50,7 +50,7 @@ static bool are_constant(const struct br_line_value *v, size_t count)
 }
 
 /* +1: the differences that count have one sign; -1: their signs alternate; 0: neither. */
-static int turns_of(const struct br_line_value *v, size_t first, size_t last)
+static int turns_of(const struct br_point *v, size_t first, size_t last)
 {
     size_t same = 0, turns = 0;
     for (size_t i = first; i < last; i++) {
@@ -87,11 +87,11 @@ static double back(double ratio, double order)
  * that alternate it lies on the way back, of others on either side. Three values show no order:
  * they may have passed the limit, by a tenth of the difference, and those that turn may have any.
  */
-static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
+static struct br_estimate limit_of(const struct br_point *v, size_t count,
                                    const struct br_line_order *found, int turns)
 {
     static const double passed = 0.1;
-    const struct br_line_value *finest = &v[count - 1];
+    const struct br_point *finest = &v[count - 1];
     const double step = finest->value - finest[-1].value, sign = step < 0 ? -1 : 1;
     const double own = finest->half + finest->rounding;
     const bool few = isnan(found->order.value);
@@ -99,7 +99,7 @@ static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
     if (few)
         low = fmin(low, -passed * fabs(step));
     if (turns < 0 && !few) {
-        const double r = finest->h / finest[-1].h;
+        const double r = finest->z / finest[-1].z;
         value = -fabs(step) * back(r, found->order.value);
         low = -fabs(step) * fmax(back(r, found->order.low), back(r, 0.5 * found->order.value));
         high = -fabs(step) * back(r, fmax(found->order.high, 1.5 * found->order.value));
@@ -115,15 +115,15 @@ static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
 }
 
 /* The posterior of the differences. */
-static enum br_status find_order(const struct br_line_value *v, size_t count,
+static enum br_status find_order(const struct br_point *v, size_t count,
                                  struct br_line_order *found, struct br_error *err)
 {
     struct br_point *point = br_allocate(count - 1, sizeof *point);
     if (!point)
         return br_no_memory(err, "the limit");
     for (size_t i = 0; i + 1 < count; i++)
-        point[i] = (struct br_point){.z = v[i].h,
-                                     .z_against = v[i + 1].h,
+        point[i] = (struct br_point){.z = v[i].z,
+                                     .z_against = v[i + 1].z,
                                      .error = fabs(v[i].value - v[i + 1].value),
                                      .deviation = hypot(v[i].half, v[i + 1].half) / normal95,
                                      .rounding = hypot(v[i].rounding, v[i + 1].rounding)};
@@ -132,7 +132,7 @@ static enum br_status find_order(const struct br_line_value *v, size_t count,
     return status;
 }
 
-enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
+enum br_status br_limit_of_values(const struct br_point *v, size_t count,
                                   struct br_grid_limit *limit, struct br_error *err)
 {
     const double finest = v[count - 1].value, half = v[count - 1].half,
@@ -167,7 +167,7 @@ enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
     return BR_OK;
 }
 
-enum br_status br_limits_find(const struct br_line_value *v, size_t count, struct br_limits *limits,
+enum br_status br_limits_find(const struct br_point *v, size_t count, struct br_limits *limits,
                               struct br_error *err)
 {
     static const struct br_gci none = {.order = NAN,

@@ -21,9 +21,9 @@ struct br_grid_limit {
  * its own interval, where one constant agrees with all values (chi square, 99 %), or with the
  * finest three of values that do not converge monotonely.
  *
- * value[count]: from coarse to fine, h as in grid_convergence.h; count >= 3. Fails with
+ * value[count]: from coarse to fine, as in grid_convergence.h; count >= 3. Fails with
  * BR_NO_MEMORY. */
-enum br_status br_limit_of_values(const struct br_line_value *value, size_t count,
+enum br_status br_limit_of_values(const struct br_point *value, size_t count,
                                   struct br_grid_limit *limit, struct br_error *err);
 
 /* All that a line of values shows. */
@@ -36,8 +36,8 @@ struct br_limits {
 
 /* Of less than three values nothing is known. Clear the limits even after a failure. Fails with
  * BR_NO_MEMORY. */
-enum br_status br_limits_find(const struct br_line_value *value, size_t count,
-                              struct br_limits *limits, struct br_error *err);
+enum br_status br_limits_find(const struct br_point *value, size_t count, struct br_limits *limits,
+                              struct br_error *err);
 void br_limits_clear(struct br_limits *limits);
 
 /* A value of a grid is L + f(h) + g(k), and small products of both. For each axis: the limit of the

@@ -498,6 +498,12 @@ static void explain(struct br_mixture *all, struct br_rows *r)
     }
 }
 
+int br_by_size(const void *a, const void *b)
+{
+    const struct br_point *x = a, *y = b;
+    return (x->z < y->z) - (x->z > y->z);
+}
+
 enum br_status br_line_order_find(const struct br_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {

@@ -15,24 +15,41 @@
 #include "orders/estimate.h"
 #include "orders/line/laws.h"
 
-/* One error of a line that is refined in one quantity z (h/L or k/T). An error against a finer
- * solution is C (z^p - z_against^p). */
+enum { BR_CELL_NAME = 2 * 64 + 2 /* "n = 40, k = 0.1" */ };
+
+/* One number of a line that is refined in one quantity z (h/L or k/T), or of a grid: the one form
+ * in which estimators, verdicts, reports and pictures take it. An error against a finer solution is
+ * C (z^p - z_against^p). */
 struct br_point {
-    double z, z_against; /* z_against < z: of the reference; 0: the solution itself */
-    double error;        /* in any unit, in which are also: */
-    double deviation;    /* its standard deviation, where it is a mean; 0: it is none */
-    double rounding;     /* half a unit of its last digit, where it was printed; 0: it was not */
-    enum br_flag flag;   /* why it is left out */
+    size_t row;                      /* of the numbers (orders.h) */
+    double x[BR_AXES], ref[BR_AXES]; /* h and k of a grid, and of its reference; 0: the
+                                        continuous problem */
+    double z, z_against;             /* z_against < z: of the reference; 0: the solution itself */
+    double error;                    /* in any unit, in which are also: */
+    double value, half;              /* of a line of values, whose difference from the next finer
+                                        one is the error (NaN: there is none), with half the width
+                                        of its 95 % interval, where it is a mean; else 0 */
+    double deviation;                /* its standard deviation, where it is a mean; 0: it is none */
+    double rounding;   /* half a unit of its last digit, where it was printed; 0: it was not */
+    enum br_flag flag; /* why it is left out */
     /* Of a case (case.h): */
     struct br_resolution at, against; /* against: zeros for the continuous problem */
     double constant;                  /* C of e = C (z^order - z_against^order) */
-    char label[64];                   /* "n = 40", for messages */
-    bool used;                        /* for the order: it is not left out */
+    char label[BR_CELL_NAME];         /* "n = 40", for messages */
     bool lost;              /* the search for the order left it out, and nothing before it */
     char failure[256];      /* of the march; "": it went well */
     struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
                                the order is that of a joint fit, which is no line */
+    /* Of what a digit costs (work.h): */
+    size_t program;         /* its place in a list */
+    double cost, cost_half; /* with half the width of its 95 % interval; 0: it does not scatter */
+    double effort;          /* of equal costs the smaller effort is cheaper */
+    bool is_start;          /* its cost is mostly the start of the program */
+    bool front, own;        /* it is on the Pareto front of all; on that of its program */
 };
+
+/* Compares points, for qsort: from coarse to fine. */
+int br_by_size(const void *a, const void *b);
 
 struct br_line_order {
     struct br_estimate order; /* the median and the 95 % interval; NaN: not known */

@@ -275,7 +275,7 @@ static size_t first_value(const struct contest *t, const struct br_candidate *c)
 /* The order of the three finest values of the first line; NaN: they have none. */
 static double order_of_values(const struct contest *t, const struct br_candidate *c, size_t value)
 {
-    struct br_line_value v[3];
+    struct br_point v[3];
     size_t count = 0;
     struct br_gci found;
     for (size_t i = 0; t->sorted[i] != BR_NO_ROW; i++) {
@@ -285,8 +285,8 @@ static double order_of_values(const struct contest *t, const struct br_candidate
             continue;
         if (count == 3)
             memmove(v, v + 1, --count * sizeof *v);
-        v[count++] = (struct br_line_value){.h = exp(c->log_z[row]), .value = number};
-        if (count > 1 && !(v[count - 1].h < v[count - 2].h))
+        v[count++] = (struct br_point){.z = exp(c->log_z[row]), .value = number};
+        if (count > 1 && !(v[count - 1].z < v[count - 2].z))
             return NAN;
     }
     if (count < 3)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/fit/fit.h"
+#include "study/fit/theory.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,8 +8,9 @@
 
 const double br_flag_margin = 3;
 
-enum br_status br_fit_numbers(const struct br_study *s, enum br_part part, struct br_numbers *n,
-                              struct br_error *err)
+/* The errors of one component with their flags, as numbers of anybody. */
+static enum br_status fill_numbers(const struct br_study *s, enum br_part part,
+                                   struct br_numbers *n, struct br_error *err)
 {
     static const char *const columns[BR_AXES] = {"n", "k"};
     *n = (struct br_numbers){.powers = true};
@@ -17,8 +18,10 @@ enum br_status br_fit_numbers(const struct br_study *s, enum br_part part, struc
         br_numbers_add_quantity(n, br_part_names[part], s->norm->unit, false, err))
         return err->status;
     n->quantity->digits = DBL_DECIMAL_DIG;
-    for (int axis = 0; axis < BR_AXES; axis++)
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
         n->column[axis] = br_resolution_column_find(columns[axis]);
+        n->quantity->formal[axis] = br_theory_of(s, part, axis).formal;
+    }
     for (size_t i = 0; i < n->rows; i++) {
         const struct br_cell *c = &s->cell[i];
         struct br_numbers_row *row = &n->row[i];
@@ -34,19 +37,21 @@ enum br_status br_fit_numbers(const struct br_study *s, enum br_part part, struc
     return BR_OK;
 }
 
-static enum br_status fit_joint(const struct br_study *s, enum br_part part,
-                                struct br_joint_fit *fit, struct br_error *err)
+void br_fits_clear(struct br_fits *fits)
 {
-    struct br_numbers numbers;
-    struct br_orders orders = {0};
-    enum br_status status = br_fit_numbers(s, part, &numbers, err);
-    if (!status)
-        status = br_orders_find(&numbers, 0, &orders, err);
-    if (!status)
-        *fit = orders.of->joint;
-    br_orders_clear(&orders);
-    br_numbers_clear(&numbers);
-    return status;
+    br_orders_clear(&fits->orders);
+    br_numbers_clear(&fits->numbers);
+}
+
+static enum br_status find_orders(const struct br_study *s, enum br_part part, struct br_fits *fits,
+                                  struct br_error *err)
+{
+    br_fits_clear(fits);
+    if (fill_numbers(s, part, &fits->numbers, err) ||
+        br_orders_find(&fits->numbers, 0, &fits->orders, err))
+        return err->status;
+    fits->joint = fits->orders.of->joint;
+    return BR_OK;
 }
 
 /* The reference's own error: by the reference check, by its statement, or else by the model
@@ -113,7 +118,7 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
     /* The reference's error only grows from round to round, so no flag is cleared and the rounds
      * end. */
     do {
-        status = fit_joint(s, part, &fits->joint, err);
+        status = find_orders(s, part, fits, err);
         const double own = reference_error(s, part, &fits->joint);
         if (!(own <= fits->reference_error) && isfinite(own))
             fits->reference_error = own;

@@ -175,8 +175,8 @@ static void name_source(struct br_observed_order *o, const struct br_study *s,
 
 /* Keeps the finest errors of the answer's line. Those of a joint fit lie on its model, which the
  * errors of the other axis bend. */
-static void keep_points(struct br_observed_order *o, const struct br_numbers *n,
-                        const struct br_quantity_orders *of, enum br_axis axis)
+static void keep_points(struct br_observed_order *o, const struct br_quantity_orders *of,
+                        enum br_axis axis)
 {
     const struct br_orders_line *line = of->answer[axis].line;
     const size_t points = line ? line->observed.points : 0;
@@ -186,10 +186,9 @@ static void keep_points(struct br_observed_order *o, const struct br_numbers *n,
     for (size_t i = 0; i < o->points; i++) {
         const double middle = sqrt(o->point[0].z * o->point[o->points - 1].z);
         struct br_point *p = &o->point[i];
-        if (o->joint) {
-            const struct br_numbers_row *row = &n->row[line->row[first + i]];
-            p->fit = br_joint_band(&of->joint, axis, middle, row->z, row->against);
-        } else if (isnan(o->order.value)) {
+        if (o->joint)
+            p->fit = br_joint_band(&of->joint, axis, middle, p->x, p->ref);
+        else if (isnan(o->order.value)) {
             p->flag = p->lost ? BR_FLAG_NONE : p->flag;
             p->fit = o->order;
         }
@@ -207,7 +206,7 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
     o->order = a->order;
     o->joint = a->joint && !a->open;
     name_source(o, r->fitted, compared, of, axis);
-    keep_points(o, orders->numbers, of, axis);
+    keep_points(o, of, axis);
     if (!a->open)
         compare(o, &l);
     else if (axis == BR_AXIS_SPACE && !compared)
@@ -222,54 +221,34 @@ static void take_answer(struct br_observed_order *o, const struct br_report *r,
         advise(o, r->fitted, axis, l.flag);
 }
 
-/* Gives the numbers the differences of a study along an axis; NULL: there are none. */
-static enum br_status set_differences(const struct br_study *s, enum br_part part,
-                                      enum br_axis axis, struct br_numbers *n, struct br_error *err)
+static void fill_differences(const struct br_study *s, enum br_part part, enum br_axis axis,
+                             struct br_case *differences)
 {
-    struct br_differences *d = &n->quantity->differences[axis];
-    free(d->point);
-    *d = (struct br_differences){.points = s ? br_axis_count(s, (int)axis) : 0};
-    d->point = s ? br_allocate(d->points, sizeof *d->point) : NULL;
-    if (s && !d->point)
-        return br_no_memory(err, "the orders");
-    for (size_t i = 0; i < d->points; i++) {
+    for (size_t i = 0; i < differences->points; i++) {
         const struct br_cell *c = &s->cell[br_axis_cell(s, (int)axis, i, 0)];
-        d->point[i] = (struct br_point){.z = br_axis_size(s->scene, (int)axis, c->at),
-                                        .z_against = br_axis_size(s->scene, (int)axis, c->against),
-                                        .error = c->error[part],
-                                        .flag = c->flag[part]};
-        if (!d->point[i].flag && !(c->error[part] > 0))
-            d->point[i].flag = BR_FLAG_FAILED;
+        struct br_point *p = &differences->point[i];
+        *p = (struct br_point){.z = br_axis_size(s->scene, (int)axis, c->at),
+                               .z_against = br_axis_size(s->scene, (int)axis, c->against),
+                               .error = c->error[part],
+                               .flag = c->flag[part]};
+        if (!p->flag && !(p->error > 0))
+            p->flag = BR_FLAG_FAILED;
     }
-    return BR_OK;
-}
-
-static enum br_status find_orders(struct br_report *r, enum br_part part, struct br_error *err)
-{
-    struct br_numbers *n = &r->numbers[part];
-    enum br_status status = br_fit_numbers(r->fitted, part, n, err);
-    n->fitted = &r->fits[part].joint;
-    for (enum br_axis a = 0; a < BR_AXES && !status; a++) {
-        n->quantity->formal[a] = br_theory_of(r->fitted, part, a).formal;
-        status = set_differences(r->compared[a], part, a, n, err);
-    }
-    return status ? status : br_orders_find(n, 0, &r->orders[part], err);
 }
 
 static enum br_status ask(struct br_report *r, enum br_part part, enum br_axis axis,
                           struct br_observed_order *o, struct br_error *err)
 {
-    struct br_orders *orders = &r->orders[part];
-    enum br_status status = BR_OK;
-    if (!orders->of)
-        status = find_orders(r, part, err);
-    else if (!set_differences(r->compared[axis], part, axis, &r->numbers[part], err))
-        status = br_orders_renew(orders, axis, err);
-    else
-        status = err->status;
-    if (!status)
-        take_answer(o, r, orders, axis);
-    return status;
+    const struct br_orders *orders = &r->fits[part].orders;
+    const struct br_study *compared = r->compared[axis];
+    const size_t points = compared ? br_axis_count(compared, (int)axis) : 0;
+    if (br_orders_begin_differences(orders, orders->of, axis, points, err))
+        return err->status;
+    fill_differences(compared, part, axis, &orders->of->differences[axis].observed);
+    if (br_orders_renew(orders, orders->of, axis, err))
+        return err->status;
+    take_answer(o, r, orders, axis);
+    return BR_OK;
 }
 
 bool br_observed_settles(const struct br_observed_order *o)
@@ -330,10 +309,8 @@ void br_report_clear(struct br_report *r)
 {
     free(r->printed);
     r->printed = NULL;
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        br_orders_clear(&r->orders[part]);
-        br_numbers_clear(&r->numbers[part]);
-    }
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        br_fits_clear(&r->fits[part]);
 }
 
 double br_report_ratio(const struct br_report *r, size_t cell)

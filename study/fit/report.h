@@ -38,10 +38,8 @@ struct br_report {
                                               borrowed */
     const char *no_meshes; /* why the former is NULL; NULL: it is not, or none are asked for.
                               Borrowed */
-    struct br_fits fits[BR_PARTS];
+    struct br_fits fits[BR_PARTS]; /* of `fitted`, with the differences */
     struct br_observed_order observed[BR_PARTS][BR_AXES];
-    struct br_numbers numbers[BR_PARTS]; /* of `fitted`, with the differences: they are searched */
-    struct br_orders orders[BR_PARTS];   /* once, those of an axis each time; owned */
     struct br_triangle triangle[BR_MOST_TRIANGLES];
     size_t triangles;
     double wall_seconds; /* of the whole study */

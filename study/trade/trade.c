@@ -68,10 +68,10 @@ size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
 }
 
 void br_trials_points(const struct br_trial *trial, size_t count,
-                      const struct br_named_method *list, struct br_work_point *point)
+                      const struct br_named_method *list, struct br_point *point)
 {
     for (size_t i = 0; i < count; i++)
-        point[i] = (struct br_work_point){
+        point[i] = (struct br_point){
             .program = (size_t)(trial[i].named - list),
             .error = br_trial_bound(&trial[i]),
             .cost = br_trial_seconds(&trial[i]),

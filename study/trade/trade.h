@@ -44,7 +44,7 @@ struct br_trade {
     size_t chosen;             /* the trial for the goal; `count`: none reaches it */
     struct br_trial *trial;    /* count, those of a named method together; owned */
     size_t count;
-    struct br_work_point *point;  /* count: of the trials, with their fronts; owned */
+    struct br_point *point;       /* count: of the trials, with their fronts; owned */
     size_t best[BR_TRADE_DIGITS]; /* the cheapest trial to each target; `count`: none */
     /* Likewise of each named method. */
     size_t best_of[BR_MOST_NAMED_METHODS][BR_TRADE_DIGITS];
@@ -97,6 +97,6 @@ size_t br_trials_for_goal(const struct br_trial *trial, size_t count,
 /* Their points (out, count): bounds of the errors over seconds; program: the place of the named
  * method in its list. */
 void br_trials_points(const struct br_trial *trial, size_t count,
-                      const struct br_named_method *list, struct br_work_point *point);
+                      const struct br_named_method *list, struct br_point *point);
 
 #endif

@@ -44,6 +44,7 @@ static void say_flags(struct br_document *d, const struct br_study *s)
         [BR_FLAG_COARSE] = "not asymptotic (C)",
         [BR_FLAG_OUTLIER] = "far from the neighbours (O)",
         [BR_FLAG_BY_HAND] = "left out by hand (H)",
+        [BR_FLAG_ABSENT] = "not in the study",
     };
     const size_t cells = s->n_count * s->k_count;
     size_t count[BR_CELL_FLAGS] = {0};
