@@ -13,6 +13,7 @@ allowed=$(sed 's/ *#.*//' <<'END'
 * (c|\(\*c\))->(name|title)|row(->|\[i\]\.)name # commands, options
 * (list|rows|br_method_fields|br_field_variables)\[[^,]*\]\.name|list\[i\]\.words->title # our tables
 cli/beam/topics.c list\[i\].title|title       # headings
+cli/beam/manual.c (list|sections)\[i\]\.title    # headings, of registries and of this file
 cli/*.c br_program\.name                     # of the program
 plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the figure's own is quoted
 plots/beam/paper.c (figure|f)->title          # captions of the paper
