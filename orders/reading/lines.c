@@ -499,7 +499,8 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
     return !add_label(s, at, at + strlen(at));
 }
 
-/* Numbers in a sentence, each named by the words before it: "N = 16: error 1.2e-2". */
+/* Numbers in a sentence, each named by the words before it: "N = 16: error 1.2e-2". Whether all of
+ * them have a name. */
 static bool split_sentence(struct splitter *s, const char *at)
 {
     const char *const end = at + strlen(at);
@@ -515,6 +516,13 @@ static bool split_sentence(struct splitter *s, const char *at)
         add_token(s, next, last, name);
     }
     return true;
+}
+
+size_t br_line_stated(const char *line, char mark, char *room, struct br_token *token)
+{
+    struct splitter s = {BR_BY_WORDS, mark, room, token, 0};
+    split_sentence(&s, line);
+    return s.count;
 }
 
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
