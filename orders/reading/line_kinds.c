@@ -234,12 +234,15 @@ static bool is_further(const struct layout *l, size_t line, size_t column, bool 
 static enum br_status make_row(struct layout *l, size_t line)
 {
     struct row *r = &l->row[line];
+    double number;
     if (br_layout_count_row(l, line))
         return l->err->status;
     r->token = br_store_take(&l->fields->store, l->width, sizeof *r->token);
-    for (size_t c = 0; c < l->width && r->token; c++)
-        r->token[c] = (struct br_token){
-            br_store_copy(&l->fields->store, l->field[c] ? l->field[c] : ""), NULL, BR_MISSING};
+    for (size_t c = 0; c < l->width && r->token; c++) {
+        const char *const text = l->field[c] ? l->field[c] : "";
+        r->token[c] = (struct br_token){br_store_copy(&l->fields->store, text), NULL, BR_MISSING};
+        l->has_number[c] += !*text || is_number(l, text, &number);
+    }
     if (l->fields->store.failed)
         return br_no_memory(l->err, "the table");
     r->count = l->width;
