@@ -200,6 +200,19 @@ static const struct {
      "step size|error|\n0.1|3|\n0.05|1|\n"},
     {"Version 1.3\nWith N = 8: error 0.1\nWith N = 16: error 0.02\nIn 3 s\n",
      "N|error|\n8|0.1|\n16|0.02|\n1 title\n4 footer\n"},
+    /* sizes and errors on lines of their own */
+    {"v 1\nOn h = .2:\nmesh made\nL2 error: .4\nOn h = .1:\nmesh made\nL2 error: .1\nOn h = .05:\n"
+     "mesh made\nL2 error: .03\nOn h = .02:\nkilled\nall in 9 s\n",
+     "h|L2 error|\n.2|.4|\n.1|.1|\n.05|.03|\n.02||\n1 title\n3 between rows\n6 between rows\n"
+     "9 between rows\n12 footer\n13 footer\n"},
+    {"- N: 8\n  steps: 3\n  err: .1\n- N: 16\n  steps: 6\n  err: .02\n",
+     "N|steps|err|\n8|3|.1|\n16|6|.02|\n"},
+    {"[1:02] n = 8\nits 3\nits 4\n[1:03] error = .1\n[1:04] n = 16\nits 3\n[1:05] error = .02\n",
+     ":t:2: found 'its 3' between or beside the rows of lines 1 to 1"},
+    {"error: .1\nh = .2\nerror: .02\nh = .1\nerror: .004\nh = .05\n",
+     ":t:3: found 'error: .02' between or beside the rows of lines 2 to 2"},
+    {"h = .2\nReference h = .1\nerror: .1\nh = .1\nReference h = .05\nerror: .02\n",
+     ":t:3: found 'error: .1' between or beside the rows of lines 1 to 2"},
     {"N = 8 (l2 is 0.3), h1 is 2.\nN = 16 (l2 is nan), h1 is 1.\n",
      "N|l2 is|h1 is|\n8|0.3|2|\n16|nan|1|\n"},
     {"With N = 8: error 0.1\nWith N = 16: error 0.02\nWith N = 32: it diverged\n",

@@ -27,6 +27,11 @@ enum { BR_BOX_BAR = '\x01' };
 enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
                             struct br_line **line, size_t *count, struct br_error *err);
 
+/* Joins the lines of each run of a log to one, where its size and its errors have lines of their
+ * own (log.c). Fails with BR_NO_MEMORY. */
+enum br_status br_log_fold(struct br_line *line, size_t lines, struct br_store *store,
+                           struct br_error *err);
+
 /* Pairs: "h = 0.1  e = 0.2", "n: 8, e: 0.1". Words: "N = 8: error 0.1", a name before each number;
  * for lines that nothing else splits into numbers. */
 enum br_separator {
