@@ -323,6 +323,14 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
     return false;
 }
 
+/* The end of the sides of a mesh, "[8 8]" or "(8, 8)", that a token begins with; NULL: there are
+ * none. */
+static const char *sides_end(const char *at)
+{
+    const size_t size = *at && strchr("[(", *at) ? strspn(at + 1, "0123456789, ") : 0;
+    return size && at[size + 1] == (*at == '[' ? ']' : ')') ? at + size + 2 : NULL;
+}
+
 /* The end of a norm, "||u||", that a token begins with; NULL: there is none. */
 static const char *norm_end(const char *at)
 {
@@ -342,6 +350,7 @@ static void split_signs(struct splitter *s, const char *at)
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
         const char *const begin = at, *end = bars ? norm_end(at) : NULL;
+        end = end ? end : sides_end(at);
         end = end ? end : quoted_end(at, by);
         at = end ? end : at;
         while (*at && !(ends_token(begin, at, by, &bytes) &&
@@ -423,13 +432,37 @@ static bool is_of_a_size(const char *name, const char *last)
     return is;
 }
 
-/* A name from `at` to `end`, without the blanks and signs behind it. The symbol of a size at its
- * end is the name, whatever a sentence has before it. */
+/* Whether a word from `at` to `end` is one of the words. */
+static bool is_one_of(const char *words, const char *at, const char *end)
+{
+    char word[16];
+    snprintf(word, sizeof word, " %.*s ", end - at < 12 ? (int)(end - at) : 12, at);
+    return strcasestr(words, word);
+}
+
+/* Moves the ends of a name inwards, past blanks, signs, and words that only join a sentence, as in
+ * "and the H1 error is"; but a name has one word. */
+static void trim_name(const char **at, const char **end)
+{
+    static const char joins[] = " and the its with for of at on in then so has gives ",
+                      verbs[] = " is was are were equals of ";
+    while (*end > *at && strchr(" \t=:,(", (*end)[-1]))
+        --*end;
+    for (const char *next;
+         (next = memchr(*at, ' ', (size_t)(*end - *at))) && is_one_of(joins, *at, next);)
+        *at = next + strspn(next, " ");
+    for (const char *last;
+         (last = memrchr(*at, ' ', (size_t)(*end - *at))) && is_one_of(verbs, last + 1, *end);)
+        for (*end = last; (*end)[-1] == ' ';)
+            --*end;
+}
+
+/* A name from `at` to `end`. The symbol of a size at its end is the name, whatever a sentence has
+ * before it. */
 static const char *copy_name(struct splitter *s, const char *at, const char *end)
 {
     const size_t longest_symbol = 2;
-    while (end > at && strchr(" \t=:,(", end[-1]))
-        end--;
+    trim_name(&at, &end);
     const char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
     const bool is_symbol = last && strlen(last + 1) <= longest_symbol &&
                            br_size_name_odds(last + 1) >= BR_USUAL_NAME && is_of_a_size(name, last);
@@ -487,7 +520,8 @@ static bool split_pairs(struct splitter *s, const char *at, char sign)
         if (add_label(s, at, name) && (before > 0 || name - at > 60))
             return false;
         const char *const value = equals + 1 + strspn(equals + 1, " \t");
-        at = value;
+        at = sides_end(value);
+        at = at ? at : value;
         while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
