@@ -27,6 +27,7 @@ struct layout {
     enum br_separator by;
     size_t width, rows;
     size_t first, last;            /* rows, as lines */
+    bool has_failed;               /* one of them is a run that failed */
     struct br_token token[WIDEST]; /* of the last line that was split */
     const char *field[WIDEST];     /* by column: what the last line states that is no row; NULL */
     long gain[WIDEST];             /* by width: how well it explains the lines */

@@ -128,31 +128,41 @@ static bool is_sequence(const struct layout *l)
 
 /* ---- failed runs: rows with a size, and without numbers ---- */
 
+static bool says_one_of(const char *const *words, const char *text)
+{
+    while (*words && !strcasestr(text, *words))
+        words++;
+    return *words;
+}
+
+static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
+
 /* Whether a line, or one of the lines up to the next row, says that a run failed. */
 static bool says_failure(const struct layout *l, size_t line)
 {
     enum { MOST_LINES = 20 };
     static const char *const words[] = {
-        "fail",      "diverg",   "crash",   "abort",     "killed",    "not conv",
-        "no conv",   "segfault", "fault",   "out of m",  "no memory", "core dumped",
-        "blew up",   "blows up", "timeout", "timed out", "unstable",  "instab",
-        "did not f", "oom",      "stopped", "overflow"};
+        "fail",      "diverg",    "crash",      "abort",    "killed",   "not conv",  "no conv",
+        "out of m",  "no memory", "blew up",    "blows up", "timeout",  "timed out", "unstable",
+        "did not f", "oom",       "terminated", "stopped",  "overflow", NULL};
     const size_t end = l->line[line].kind == BR_LINE_TEXT ? line + MOST_LINES : line + 1;
-    for (size_t i = line; i < l->lines && i < end && !l->row[i].is_row; i++)
-        for (size_t j = 0; j < sizeof words / sizeof *words; j++)
-            if (strcasestr(l->line[i].text, words[j]))
-                return true;
-    return false;
+    bool says = false;
+    for (size_t i = line; i < l->lines && i < end && !l->row[i].is_row && !says; i++)
+        says = says_one_of(words, l->line[i].text) || says_one_of(crashes, l->line[i].text);
+    return says;
 }
 
 /* The column whose heading a name is, or ends with as a word: "Run N"; l->width: there is none. */
 static size_t column_of(const struct layout *l, const char *name)
 {
     size_t column = 0;
-    for (const size_t all = strlen(name); column < l->width; column++) {
+    const size_t all = strlen(name);
+    for (; column < l->width; column++) {
         const char *const heading = l->fields->heading[column];
-        const size_t size = heading && *heading ? strlen(heading) : all + 1;
-        if (all >= size && strcasecmp(name + all - size, heading) == 0 &&
+        size_t size = heading ? strcspn(heading, strpbrk(name, "[(") ? "" : "[(") : 0;
+        while (size && heading[size - 1] == ' ')
+            size--;
+        if (size && all >= size && strncasecmp(name + all - size, heading, size) == 0 &&
             (all == size || name[all - size - 1] == ' '))
             break;
     }
@@ -168,7 +178,8 @@ static bool is_number(const struct layout *l, const char *text, double *value)
 }
 
 /* Takes what a line states (l->field): numbers behind the names of columns, or else fields up to
- * the first column of numbers. Returns the column of its size; l->width: there is none. */
+ * the first column of numbers. Returns the column of its size; l->width: there is none; BR_NO_ROW:
+ * it has a size of no column. */
 static size_t take_stated(struct layout *l, size_t line, bool *named)
 {
     size_t column = l->width, first = 0;
@@ -178,12 +189,12 @@ static size_t take_stated(struct layout *l, size_t line, bool *named)
     for (size_t i = 0; i < count; i++) {
         const size_t c = column_of(l, l->token[i].name);
         const bool is_size = c == 0 || br_size_name_odds(l->token[i].name) >= BR_USUAL_NAME;
-        column = is_size && column == l->width ? c : column;
+        column = is_size && column >= l->width ? (c < l->width ? c : BR_NO_ROW) : column;
         if (c < l->width && !l->field[c])
             l->field[c] = l->token[i].text;
     }
     *named = column < l->width;
-    if (*named || l->by <= BR_BY_COLONS)
+    if (column != l->width || l->by <= BR_BY_COLONS)
         return column;
     memset(l->field, 0, l->width * sizeof *l->field);
     const struct row r = br_layout_look_at(l, line, l->room);
@@ -246,7 +257,7 @@ static enum br_status make_row(struct layout *l, size_t line)
     if (l->fields->store.failed)
         return br_no_memory(l->err, "the table");
     r->count = l->width;
-    r->is_row = true;
+    r->is_row = l->has_failed = true;
     l->first = line < l->first ? line : l->first;
     l->last = line > l->last ? line : l->last;
     return BR_OK;
@@ -259,17 +270,23 @@ static enum br_status take_failed_run(struct layout *l, size_t line)
     bool named, follows;
     const bool is_text = l->line[line].kind == BR_LINE_TEXT, is_log = l->by <= BR_BY_COLONS;
     const size_t column = take_stated(l, line, &named);
-    if (column == l->width || !is_further(l, line, column, &follows))
-        return BR_OK;
-    const bool fails = says_failure(l, line), is_inside = line > l->first;
-    if (named ? fails || (is_log && is_text && (is_inside || follows)) : fails && follows)
-        return make_row(l, line);
-    if (named || !follows || line < l->last || !is_text)
-        return BR_OK;
-    return br_fail(l->err, BR_BAD_INPUT,
-                   "%s:%zu: found '%.40s', expected a row of %zu fields: write nan for a "
-                   "number that is missing, or # before a line that is no row",
-                   l->path, l->line[line].number, l->line[line].text, l->width);
+    bool refuses = !l->has_failed && line > l->first && says_one_of(crashes, l->line[line].text);
+    if (column == BR_NO_ROW)
+        refuses = says_failure(l, line);
+    else if (column < l->width) {
+        if (!is_further(l, line, column, &follows))
+            return BR_OK;
+        const bool fails = says_failure(l, line);
+        if (named ? fails || (is_log && is_text && (line > l->first || follows)) : fails && follows)
+            return make_row(l, line);
+        refuses = !named && follows && line > l->last;
+    }
+    return !refuses || !is_text
+               ? BR_OK
+               : br_fail(l->err, BR_BAD_INPUT,
+                         "%s:%zu: found '%.40s', expected a row of %zu fields: write nan for a "
+                         "number that is missing, or # before a line that is no row",
+                         l->path, l->line[line].number, l->line[line].text, l->width);
 }
 
 /* Takes failed runs. Refuses what is no row between rows, but text in a sequence, and rows beside

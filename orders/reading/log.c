@@ -135,8 +135,11 @@ enum br_status br_log_fold(struct br_line *line, size_t lines, struct br_store *
     for (size_t i = 0; i < lines && folds; i++) {
         const struct statement *s = &g->of[name[i]];
         run = name[i] == g->begin ? &line[i] : run;
-        if (run != &line[i] && run && name[i] != NO_NAME && s->runs > 1 && !s->is_unsure &&
-            !join(run, &line[i], store))
+        if (!run || run == &line[i] || name[i] == NO_NAME || s->runs < 2)
+            continue;
+        if (s->is_unsure)
+            line[i].kind = BR_LINE_COMMENT; /* the steps of a solver, say */
+        else if (!join(run, &line[i], store))
             return br_no_memory(err, "the table");
     }
     return BR_OK;
