@@ -407,6 +407,8 @@ static const char *next_number(const struct splitter *s, const char *at, const c
     for (const char *word = at; word < end; word = *behind) {
         char text[64];
         word += strspn(word, " \t,;:=(");
+        if (word >= end)
+            break;
         *behind = word + strcspn(word, " \t,;=");
         for (size_t blanks; (blanks = strspn(*behind, " ")) && is_in_number(word, *behind, blanks);)
             *behind += blanks + strcspn(*behind + blanks, " \t,;=");
