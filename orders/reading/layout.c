@@ -28,13 +28,12 @@ struct row br_layout_look_at(struct layout *l, size_t line, char *room)
 }
 
 /* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
- * word costs one. Each line counts with and without its empty tokens at the end; a heading decides
- * between the two. */
+ * word costs one; a number in a sentence counts one, beside others. Each line counts with and
+ * without its empty tokens at the end; a heading decides between the two. */
 static long measure(struct layout *l)
 {
     memset(l->gain, 0, sizeof l->gain);
     memset(l->names, 0, sizeof l->names);
-    memset(l->like, 0, sizeof l->like);
     l->width = 0;
     for (size_t i = 0; i < l->lines; i++) {
         if (i == SAMPLE && l->lines > 2 * SAMPLE)
@@ -42,15 +41,14 @@ static long measure(struct layout *l)
         if (l->line[i].kind != BR_LINE_TEXT)
             continue;
         const struct row r = br_layout_look_at(l, i, l->room);
-        const bool is_lone = l->by == BR_BY_WORDS && r.count < 2;
-        const long more = r.numbers && !is_lone ? 3 * (long)r.numbers - (long)r.words : 0;
+        const long worth = l->by == BR_BY_WORDS ? r.count > 1 : 3;
+        const long more = r.numbers ? worth * (long)r.numbers - (long)r.words : 0;
         size_t filled = r.count;
         while (filled > 1 && l->token[filled - 1].content == BR_NOTHING)
             filled--;
         l->gain[r.count] += more;
         l->gain[filled] += filled < r.count ? more : 0;
         l->names[r.count] += !r.numbers;
-        l->like[r.count] += more > 0;
     }
     size_t best = 1;
     for (size_t i = 1; i < WIDEST; i++)
@@ -67,9 +65,9 @@ static long measure(struct layout *l)
 static enum br_status choose(struct layout *l, size_t first)
 {
     long most = 0;
-    size_t widest = 0, width = 0, rows = 0;
+    size_t widest = 0, width = 0;
     int best = 0;
-    for (int i = 2 * BR_BY_EQUALS; i < 2 * BR_SEPARATORS; i++) {
+    for (int i = 2 * BR_BY_WORDS; i < 2 * BR_SEPARATORS; i++) {
         l->by = (enum br_separator)(i / 2);
         l->fields->mark = ".,"[i % 2];
         const long score = measure(l);
@@ -77,19 +75,12 @@ static enum br_status choose(struct layout *l, size_t first)
             most = score;
             best = i;
             width = l->width;
-            rows = l->like[width];
         }
         const size_t count = l->by < BR_BY_TABS ? 0 : br_layout_look_at(l, first, l->room).count;
         widest = count > widest ? count : widest;
     }
-    l->by = BR_BY_WORDS;
-    l->fields->mark = '.';
-    if (measure(l) > (rows < 2 ? most : 2 * most) && (!rows || l->like[l->width] > 1)) {
-        width = l->width;
-    } else {
-        l->by = (enum br_separator)(best / 2);
-        l->fields->mark = ".,"[best % 2];
-    }
+    l->by = (enum br_separator)(best / 2);
+    l->fields->mark = ".,"[best % 2];
     l->width = l->fields->columns = width;
     const bool wide = width > BR_MOST_COLUMNS || (!width && widest > BR_MOST_COLUMNS);
     return width && !wide

@@ -31,7 +31,6 @@ struct layout {
     struct br_token token[WIDEST]; /* of the last line that was split */
     const char *field[WIDEST];     /* by column: what the last line states that is no row; NULL */
     long gain[WIDEST];             /* by width: how well it explains the lines */
-    size_t like[WIDEST];           /* by width: lines with a number */
     size_t names[WIDEST];          /* by width: lines without a number */
     bool skipped[WIDEST];          /* by column: the heading has no name of it */
     size_t has_number[WIDEST];     /* by column: the rows that have one there, or a missing one */
