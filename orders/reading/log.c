@@ -7,140 +7,125 @@
 #include "orders/reading/lines.h"
 #include "orders/reading/roles.h"
 
-enum { MOST_NAMES = 64, NO_NAME = MOST_NAMES };
+enum { MOST_NAMES = 64 };
 
 /* The lines that begin with one name. */
 struct statement {
     char name[80];
-    bool is_size;             /* they have sizes, and nothing that may be an error */
-    bool is_error;            /* they may have one */
-    bool is_unsure;           /* a run has several of them */
+    bool has_size, has_error; /* it may be one */
+    bool repeats;             /* a run has several of them */
     size_t lines, runs, last; /* last: the run of the last one, from 1 on */
 };
 
 struct log {
-    struct statement of[MOST_NAMES + 1]; /* the last: of lines without a name */
-    size_t names;
-    size_t *name; /* by line */
-    size_t begin; /* the name that begins a run */
+    struct br_line *line;
+    size_t lines, names;
+    struct statement of[MOST_NAMES], **by_line; /* NULL: it states nothing */
+    const struct statement *begin;              /* of a run */
 };
 
-static void take_statement(struct log *g, size_t line, const struct br_token *token, size_t count)
+static struct statement *take_statement(struct log *g, const struct br_token *token, size_t count)
 {
     size_t i = 0;
-    bool is_size = false, is_error = false;
-    for (size_t k = 0; k < count; k++) {
-        const bool size = br_size_name_odds(token[k].name) >= BR_USUAL_NAME;
-        const enum br_kind kind = br_kind_of(token[k].name);
-        is_size |= size;
-        is_error |= kind == BR_KIND_ERROR ||
-                    (kind == BR_KIND_UNKNOWN && br_size_name_odds(token[k].name) <= BR_ANY_NAME);
-    }
     while (i < g->names && strcmp(g->of[i].name, token->name) != 0)
         i++;
     if (i == MOST_NAMES || strlen(token->name) >= sizeof g->of->name)
-        return;
+        return NULL;
     struct statement *s = &g->of[i];
-    if (i == g->names) {
-        g->names++;
-        s->is_size = true;
-        strcpy(s->name, token->name);
-    }
-    s->is_size &= is_size && !is_error;
-    s->is_error |= is_error;
+    g->names += i == g->names;
+    strcpy(s->name, token->name);
     s->lines++;
-    g->name[line] = i;
+    for (; count-- > 0; token++) {
+        const double odds = br_size_name_odds(token->name);
+        const enum br_kind kind = br_kind_of(token->name);
+        s->has_size |= odds >= BR_USUAL_NAME;
+        s->has_error |= kind == BR_KIND_ERROR || (kind == BR_KIND_UNKNOWN && odds <= BR_ANY_NAME);
+    }
+    return s;
 }
 
-static void read_statements(struct log *g, const struct br_line *line, size_t lines, char *room,
-                            struct br_token *token)
+static enum br_status read_statements(struct log *g, struct br_store *store, struct br_error *err)
 {
-    for (size_t i = 0; i < lines; i++) {
-        g->name[i] = NO_NAME;
-        const size_t count = line[i].kind == BR_LINE_TEXT
-                                 ? br_line_split(line[i].text, BR_BY_WORDS, '.', room, token)
-                                 : 0;
-        if (count)
-            take_statement(g, i, token, count);
+    size_t longest = 0;
+    for (size_t i = 0; i < g->lines; i++) {
+        const size_t size = BR_ROOM(g->line[i].text);
+        longest = size > longest ? size : longest;
     }
-}
-
-static void count_runs(struct log *g, size_t lines)
-{
-    size_t run = 0;
-    while (g->begin < g->names && !(g->of[g->begin].is_size && g->of[g->begin].lines > 1))
-        g->begin++;
-    for (size_t i = 0; i < lines; i++) {
-        struct statement *s = &g->of[g->name[i]];
-        run += g->name[i] == g->begin;
-        if (!run || g->name[i] == NO_NAME || g->name[i] == g->begin)
-            continue;
-        s->is_unsure |= s->last == run;
-        s->runs += s->last != run;
-        s->last = run;
-    }
+    struct br_token *token = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *token);
+    char *room = br_store_take(store, longest, 1);
+    g->by_line = br_store_take(store, g->lines + 1, sizeof *g->by_line);
+    if (store->failed)
+        return br_no_memory(err, "the table");
+    for (size_t i = 0, count; i < g->lines; i++)
+        if (g->line[i].kind == BR_LINE_TEXT &&
+            (count = br_line_split(g->line[i].text, BR_BY_WORDS, '.', room, token)))
+            g->by_line[i] = take_statement(g, token, count);
+    return BR_OK;
 }
 
 /* Whether sizes and errors stand on lines of their own, each behind its size, and most sizes have
  * one: others are of a reference, perhaps. */
-static bool has_runs(const struct log *g)
+static bool find_runs(struct log *g)
 {
+    size_t run = 0;
     bool errors = false;
-    for (size_t i = 0; i < g->names; i++) {
-        const struct statement *s = &g->of[i];
-        if (s->runs && s->lines > s->runs && !s->is_unsure)
+    for (size_t i = g->names; i-- > 0;)
+        if (g->of[i].has_size && !g->of[i].has_error && g->of[i].lines > 1)
+            g->begin = &g->of[i];
+    for (size_t i = 0; i < g->lines; i++) {
+        struct statement *s = g->by_line[i];
+        run += s && s == g->begin;
+        if (!run || !s || s == g->begin)
+            continue;
+        s->repeats |= s->last == run;
+        s->runs += s->last != run;
+        s->last = run;
+    }
+    for (const struct statement *s = g->of; s < g->of + g->names; s++) {
+        if (s->runs && s->lines > s->runs && !s->repeats)
             return false; /* one stands before the first size: that of a run may be the next one */
-        errors |=
-            s->is_error && s->runs > 1 && !s->is_unsure && 2 * s->runs > g->of[g->begin].lines;
+        errors |= s->has_error && s->runs > 1 && !s->repeats && 2 * s->runs > g->begin->lines;
     }
     return errors;
 }
 
 /* Adds a line to that of its run, without a time in front. */
-static bool join(struct br_line *run, struct br_line *line, struct br_store *store)
+static enum br_status join(struct br_line *run, struct br_line *line, struct br_store *store,
+                           struct br_error *err)
 {
     const char *const stamp = *line->text == '[' ? strchr(line->text, ']') : NULL;
     const char *const text = stamp ? stamp + 1 : line->text;
     char *const all = br_store_take(store, strlen(run->text) + strlen(text) + 3, 1);
     size_t end = strlen(run->text);
     if (!all)
-        return false;
+        return br_no_memory(err, "the table");
     while (end && strchr(":.,;", run->text[end - 1]))
         end--;
     sprintf(all, "%.*s; %s", (int)end, run->text, text);
     run->text = all;
     line->kind = BR_LINE_EMPTY;
-    return true;
+    return BR_OK;
 }
 
 enum br_status br_log_fold(struct br_line *line, size_t lines, struct br_store *store,
                            struct br_error *err)
 {
-    size_t longest = 0;
-    for (size_t i = 0; i < lines; i++) {
-        const size_t size = BR_ROOM(line[i].text);
-        longest = size > longest ? size : longest;
-    }
-    struct br_token *token = br_store_take(store, BR_MOST_COLUMNS + 3, sizeof *token);
-    struct log *g = br_store_take(store, 1, sizeof *g);
-    char *room = br_store_take(store, longest, 1);
-    size_t *name = br_store_take(store, lines + 1, sizeof *name);
-    if (store->failed)
-        return br_no_memory(err, "the table");
-    g->name = name;
-    read_statements(g, line, lines, room, token);
-    count_runs(g, lines);
     struct br_line *run = NULL;
-    const bool folds = has_runs(g);
-    for (size_t i = 0; i < lines && folds; i++) {
-        const struct statement *s = &g->of[name[i]];
-        run = name[i] == g->begin ? &line[i] : run;
-        if (!run || run == &line[i] || name[i] == NO_NAME || s->runs < 2)
+    struct log *g = br_store_take(store, 1, sizeof *g);
+    if (!g)
+        return br_no_memory(err, "the table");
+    *g = (struct log){.line = line, .lines = lines};
+    if (read_statements(g, store, err) || !find_runs(g))
+        return err->status;
+    for (size_t i = 0; i < lines; i++) {
+        const struct statement *s = g->by_line[i];
+        run = s && s == g->begin ? &line[i] : run;
+        if (!run || !s || s == g->begin || s->runs < 2)
             continue;
-        if (s->is_unsure)
+        if (s->repeats)
             line[i].kind = BR_LINE_COMMENT; /* the steps of a solver, say */
-        else if (!join(run, &line[i], store))
-            return br_no_memory(err, "the table");
+        else if (join(run, &line[i], store, err))
+            return err->status;
     }
     return BR_OK;
 }
