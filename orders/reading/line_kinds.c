@@ -11,6 +11,28 @@
 
 /* ---- rows ---- */
 
+static bool says_one_of(const char *const *words, const char *text)
+{
+    while (*words && !strcasestr(text, *words))
+        words++;
+    return *words;
+}
+
+static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
+
+/* Whether a line, or one of those below it, up to the next row, says that a run failed. */
+static bool says_failure(const struct layout *l, size_t line, size_t lines)
+{
+    static const char *const words[] = {
+        "fail",      "diverg",    "crash",      "abort",    "killed",   "not conv",  "no conv",
+        "out of m",  "no memory", "blew up",    "blows up", "timeout",  "timed out", "unstable",
+        "did not f", "oom",       "terminated", "stopped",  "overflow", NULL};
+    bool says = false;
+    for (size_t i = line; i < l->lines && i < line + lines && !l->row[i].is_row && !says; i++)
+        says = says_one_of(words, l->line[i].text) || says_one_of(crashes, l->line[i].text);
+    return says;
+}
+
 /* Whether a line has numbers in half of the columns of numbers, or nothing at all. */
 static bool is_like_rows(const struct layout *l, const struct row *r)
 {
@@ -22,11 +44,22 @@ static bool is_like_rows(const struct layout *l, const struct row *r)
     return r->count == l->width && 2 * there >= all && (r->numbers || !r->words);
 }
 
+/* Whether a line of names and numbers tells of a failure instead: "N = 32: diverged in step 3". */
+static bool tells_failure(const struct layout *l, size_t line)
+{
+    bool others = false;
+    const struct br_token *const token = l->row[line].token;
+    for (size_t c = 0; c < l->width && l->first < l->lines && token->name; c++)
+        others |= strcmp(token[c].name, l->row[l->first].token[c].name) != 0;
+    return others && says_failure(l, line, 1);
+}
+
 static enum br_status find_rows(struct layout *l)
 {
     l->first = l->lines;
     for (size_t i = 0; i < l->lines; i++) {
-        l->row[i].is_row = l->line[i].kind == BR_LINE_TEXT && is_like_rows(l, &l->row[i]);
+        l->row[i].is_row =
+            l->line[i].kind == BR_LINE_TEXT && is_like_rows(l, &l->row[i]) && !tells_failure(l, i);
         l->first = l->row[i].is_row && l->first == l->lines ? i : l->first;
         l->last = l->row[i].is_row ? i : l->last;
     }
@@ -127,30 +160,6 @@ static bool is_sequence(const struct layout *l)
 }
 
 /* ---- failed runs: rows with a size, and without numbers ---- */
-
-static bool says_one_of(const char *const *words, const char *text)
-{
-    while (*words && !strcasestr(text, *words))
-        words++;
-    return *words;
-}
-
-static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
-
-/* Whether a line, or one of the lines up to the next row, says that a run failed. */
-static bool says_failure(const struct layout *l, size_t line)
-{
-    enum { MOST_LINES = 20 };
-    static const char *const words[] = {
-        "fail",      "diverg",    "crash",      "abort",    "killed",   "not conv",  "no conv",
-        "out of m",  "no memory", "blew up",    "blows up", "timeout",  "timed out", "unstable",
-        "did not f", "oom",       "terminated", "stopped",  "overflow", NULL};
-    const size_t end = l->line[line].kind == BR_LINE_TEXT ? line + MOST_LINES : line + 1;
-    bool says = false;
-    for (size_t i = line; i < l->lines && i < end && !l->row[i].is_row && !says; i++)
-        says = says_one_of(words, l->line[i].text) || says_one_of(crashes, l->line[i].text);
-    return says;
-}
 
 /* The column whose heading a name is, or ends with as a word: "Run N"; l->width: there is none. */
 static size_t column_of(const struct layout *l, const char *name)
@@ -263,6 +272,8 @@ static enum br_status make_row(struct layout *l, size_t line)
     return BR_OK;
 }
 
+enum { MOST_LINES = 20 /* of a failure */ };
+
 /* Makes a line that states a further size a row: where a run failed, or did not end. Refuses what
  * may be one. */
 static enum br_status take_failed_run(struct layout *l, size_t line)
@@ -272,11 +283,11 @@ static enum br_status take_failed_run(struct layout *l, size_t line)
     const size_t column = take_stated(l, line, &named);
     bool refuses = !l->has_failed && line > l->first && says_one_of(crashes, l->line[line].text);
     if (column == BR_NO_ROW)
-        refuses = says_failure(l, line);
+        refuses = says_failure(l, line, 1);
     else if (column < l->width) {
         if (!is_further(l, line, column, &follows))
             return BR_OK;
-        const bool fails = says_failure(l, line);
+        const bool fails = says_failure(l, line, is_text ? MOST_LINES : 1);
         if (named ? fails || (is_log && is_text && (line > l->first || follows)) : fails && follows)
             return make_row(l, line);
         refuses = !named && follows && line > l->last;

@@ -398,24 +398,40 @@ static bool is_missing_at_end(const char *text, const char *behind)
            strchr(",;", *behind);
 }
 
-/* The next number among the words from `at` to `end`, or one that is missing; *behind (out): the
- * end of its word. NULL: there is none. */
-static const char *next_number(const struct splitter *s, const char *at, const char *end,
-                               const char **behind)
+/* The end of a word, which may have a decimal comma. */
+static const char *word_end(const struct splitter *s, const char *word)
+{
+    word += strcspn(word, s->by == BR_BY_COLONS ? " \t\x01,;=:" : " \t\x01,;=");
+    return *word == ',' && s->mark == ',' && isdigit((unsigned char)word[1]) ? word_end(s, word + 1)
+                                                                             : word;
+}
+
+/* The value behind the sign of a pair between two places; NULL: there is no sign. */
+static const char *signed_value(const struct splitter *s, const char *from, const char *to)
+{
+    const char *const sign =
+        s->by == BR_BY_WORDS ? NULL
+                             : memchr(from, s->by == BR_BY_EQUALS ? '=' : ':', (size_t)(to - from));
+    return sign ? sign + 1 + strspn(sign + 1, " \t\x01=") : NULL;
+}
+
+/* The next value among the words from `at` to its end: a number, one that is missing, or whatever
+ * stands behind the sign of a pair; *behind (out): its end. NULL: there is none. */
+static const char *next_value(const struct splitter *s, const char *at, const char **behind)
 {
     struct br_field_number number;
-    for (const char *word = at; word < end; word = *behind) {
+    for (const char *word = at; *word; word = *behind) {
         char text[64];
-        word += strspn(word, " \t,;:=(");
-        if (word >= end)
-            break;
-        *behind = word + strcspn(word, " \t,;=");
+        const char *const plain = word + strspn(word, " \t\x01,;:=("), *const value = signed_value(
+                                                                           s, word, plain);
+        word = value ? value : plain;
+        const char *const sides = sides_end(word);
+        *behind = sides ? sides : word_end(s, word);
         for (size_t blanks; (blanks = strspn(*behind, " ")) && is_in_number(word, *behind, blanks);)
-            *behind += blanks + strcspn(*behind + blanks, " \t,;=");
-        *behind = *behind < end ? *behind : end;
+            *behind = word_end(s, *behind + blanks);
         const long length = end_of_word(word, *behind) - word;
         snprintf(text, sizeof text, "%.*s", length > 0 && length < 64 ? (int)length : 0, word);
-        if (br_field_read(text, s->mark, &number) || is_missing_at_end(text, *behind))
+        if (value || br_field_read(text, s->mark, &number) || is_missing_at_end(text, *behind))
             return word;
     }
     return NULL;
@@ -497,57 +513,18 @@ static bool has_exponent_behind(const char *at)
     return isdigit((unsigned char)*digits);
 }
 
-/* Whether a word from `at` to `end` is a number; then adds the last one, named by what is before
- * it. */
-static bool add_label(struct splitter *s, const char *at, const char *end)
-{
-    const char *last = NULL, *last_end = NULL, *behind = at;
-    for (const char *next; (next = next_number(s, behind, end, &behind));) {
-        last = next;
-        last_end = behind;
-    }
-    if (last)
-        add_token(s, last, end_of_word(last, last_end), copy_name(s, at, last));
-    return last;
-}
-
-/* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
- * numbers between or behind them are no pairs. */
-static bool split_pairs(struct splitter *s, const char *at, char sign)
-{
-    at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
-    for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
-        const char *const name = begin_of_name(at, equals);
-        const size_t before = s->count;
-        if (add_label(s, at, name) && (before > 0 || name - at > 60))
-            return false;
-        const char *const value = equals + 1 + strspn(equals + 1, " \t");
-        at = sides_end(value);
-        at = at ? at : value;
-        while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
-               !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
-            at++;
-        const char *const end = at - (at > value && at[-1] == ':');
-        add_token(s, value, end, add_unit(s, copy_name(s, name, equals), &at));
-        if (strspn(name, " +-.0123456789") >= (size_t)(equals - name) || has_exponent_behind(at))
-            return false; /* a time, as 12:30 */
-    }
-    return !add_label(s, at, at + strlen(at));
-}
-
-/* Numbers in a sentence, each named by the words before it: "N = 16: error 1.2e-2". Whether all of
- * them have a name. */
+/* Values in a sentence, each named by the words before it: "N = 16: error 1.2e-2". In front may be
+ * a time, or a label: "10: e = 0.1". Whether all of them have a name. */
 static bool split_sentence(struct splitter *s, const char *at)
 {
-    const char *const end = at + strlen(at);
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0;
     const char *behind = at;
-    for (const char *next; (next = next_number(s, behind, end, &behind)); at = behind) {
+    for (const char *next; (next = next_value(s, behind, &behind)); at = behind) {
         const char *const begin = begin_of_name(at, next);
         const char *name = copy_name(s, begin + (*begin == '('), next);
-        if (!*name || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
-            return false;
         const char *const last = end_of_word(next, behind);
+        if ((!*name && s->count) || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
+            return false;
         name = add_unit(s, name, &behind);
         add_token(s, next, last, name);
     }
@@ -565,10 +542,10 @@ size_t br_line_split(const char *line, enum br_separator by, char mark, char *ro
                      struct br_token *token)
 {
     struct splitter s = {by, mark, room, token, 0};
-    if (by == BR_BY_WORDS)
-        return split_sentence(&s, line) ? s.count : 0;
-    if (by <= BR_BY_COLONS)
-        return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
+    if (by <= BR_BY_COLONS) {
+        const bool has_sign = by == BR_BY_WORDS || strchr(line, by == BR_BY_EQUALS ? '=' : ':');
+        return has_sign && split_sentence(&s, line) ? s.count : 0;
+    }
     split_signs(&s, line);
     return s.count;
 }

@@ -32,8 +32,8 @@ enum br_status br_lines_cut(char *text, const char *path, struct br_store *store
 enum br_status br_log_fold(struct br_line *line, size_t lines, struct br_store *store,
                            struct br_error *err);
 
-/* Pairs: "h = 0.1  e = 0.2", "n: 8, e: 0.1". Words: "N = 8: error 0.1", a name before each number;
- * for lines that nothing else splits into numbers. */
+/* The first three are sentences, with a name before each number: "N = 8: error 0.1". Those of pairs
+ * have values behind signs, which may be words: "h = 0.1  m = P1", "n: 8, e: 0.1". */
 enum br_separator {
     BR_BY_WORDS,
     BR_BY_EQUALS,

@@ -29,7 +29,7 @@ static struct statement *take_statement(struct log *g, const struct br_token *to
     size_t i = 0;
     while (i < g->names && strcmp(g->of[i].name, token->name) != 0)
         i++;
-    if (i == MOST_NAMES || strlen(token->name) >= sizeof g->of->name)
+    if (!*token->name || i == MOST_NAMES || strlen(token->name) >= sizeof g->of->name)
         return NULL;
     struct statement *s = &g->of[i];
     g->names += i == g->names;
