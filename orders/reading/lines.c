@@ -437,25 +437,20 @@ static const char *next_value(const struct splitter *s, const char *at, const ch
     return NULL;
 }
 
-/* Whether a name without its last word says that this one is a size: it is nothing of its own, as
- * "Running" before "dt", or "error for" before "n"; but the "error in" h is an error. */
-static bool is_of_a_size(const char *name, const char *last)
-{
-    static const char *const before[] = {" for", " at", " with"};
-    bool is = !br_kind_of(name);
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
-        const size_t length = strlen(before[i]);
-        is |= last - name > (long)length && strncmp(last - length, before[i], length) == 0;
-    }
-    return is;
-}
-
 /* Whether a word from `at` to `end` is one of the words. */
 static bool is_one_of(const char *words, const char *at, const char *end)
 {
     char word[16];
     snprintf(word, sizeof word, " %.*s ", end - at < 12 ? (int)(end - at) : 12, at);
     return strcasestr(words, word);
+}
+
+/* Whether a name without its last word says that this one is a size: it is nothing of its own, as
+ * "Running" before "dt", or "error for" before "n"; but the "error in" h is an error. */
+static bool is_of_a_size(const char *name, const char *last)
+{
+    const char *const before = memrchr(name, ' ', (size_t)(last - name));
+    return !br_kind_of(name) || (before && is_one_of(" for at with ", before + 1, last));
 }
 
 /* Moves the ends of a name inwards, past blanks, signs, and words that only join a sentence, as in
