@@ -370,13 +370,13 @@ static const char *begin_of_name(const char *at, const char *end)
     for (const char *word = at, *next; word < end; word = next) {
         const size_t length = strcspn(word, " \t");
         next = word + length + strspn(word + length, " \t");
-        const bool no_name = strspn(word, "+-.:;,|\x01"
+        const bool no_name = strspn(word, "+-.:;,|&\x01"
                                           "0123456789") >= length;
         const bool is_last = length && strchr(",;:|", word[length - 1]);
         if (next < end && (no_name || is_last || next > word + length + 1))
             begin = next;
     }
-    while (begin < end && strchr(",; \t\x01", *begin))
+    while (begin < end && (strchr(",;& \t\x01", *begin) || (*begin == '|' && is_blank(begin[1]))))
         begin++;
     return begin;
 }
@@ -398,12 +398,14 @@ static bool is_missing_at_end(const char *text, const char *behind)
            strchr(",;", *behind);
 }
 
-/* The end of a word, which may have a decimal comma. */
+/* The end of a word, which may have a decimal comma, or be a time, "12:30". */
 static const char *word_end(const struct splitter *s, const char *word)
 {
     word += strcspn(word, s->by == BR_BY_COLONS ? " \t\x01,;=:" : " \t\x01,;=");
-    return *word == ',' && s->mark == ',' && isdigit((unsigned char)word[1]) ? word_end(s, word + 1)
-                                                                             : word;
+    const bool goes_on = *word == ':' || (*word == ',' && s->mark == ',');
+    return goes_on && isdigit((unsigned char)word[-1]) && isdigit((unsigned char)word[1])
+               ? word_end(s, word + 1)
+               : word;
 }
 
 /* The value behind the sign of a pair between two places; NULL: there is no sign. */
