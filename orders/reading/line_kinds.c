@@ -188,17 +188,20 @@ static bool is_number(const struct layout *l, const char *text, double *value)
 
 /* Takes what a line states (l->field): numbers behind the names of columns, or else fields up to
  * the first column of numbers. Returns the column of its size; l->width: there is none; BR_NO_ROW:
- * it has a size of no column. */
-static size_t take_stated(struct layout *l, size_t line, bool *named)
+ * it has a size of no column. *whole (out): all values are of columns. */
+static size_t take_stated(struct layout *l, size_t line, bool *named, bool *whole)
 {
     size_t column = l->width, first = 0;
     double number;
     memset(l->field, 0, l->width * sizeof *l->field);
-    const size_t count = br_line_stated(l->line[line].text, l->fields->mark, l->room, l->token);
+    const size_t count =
+        br_line_stated(l->line[line].text, l->by, l->fields->mark, l->room, l->token);
+    *whole = true;
     for (size_t i = 0; i < count; i++) {
         const size_t c = column_of(l, l->token[i].name);
         const bool is_size = c == 0 || br_size_name_odds(l->token[i].name) >= BR_USUAL_NAME;
         column = is_size && column >= l->width ? (c < l->width ? c : BR_NO_ROW) : column;
+        *whole &= c < l->width && !l->field[c];
         if (c < l->width && !l->field[c])
             l->field[c] = l->token[i].text;
     }
@@ -278,9 +281,9 @@ enum { MOST_LINES = 20 /* of a failure */ };
  * may be one. */
 static enum br_status take_failed_run(struct layout *l, size_t line)
 {
-    bool named, follows;
+    bool named, whole, follows;
     const bool is_text = l->line[line].kind == BR_LINE_TEXT, is_log = l->by <= BR_BY_COLONS;
-    const size_t column = take_stated(l, line, &named);
+    const size_t column = take_stated(l, line, &named, &whole);
     bool refuses = !l->has_failed && line > l->first && says_one_of(crashes, l->line[line].text);
     if (column == BR_NO_ROW)
         refuses = says_failure(l, line, 1);
@@ -288,9 +291,10 @@ static enum br_status take_failed_run(struct layout *l, size_t line)
         if (!is_further(l, line, column, &follows))
             return BR_OK;
         const bool fails = says_failure(l, line, is_text ? MOST_LINES : 1);
-        if (named ? fails || (is_log && is_text && (line > l->first || follows)) : fails && follows)
+        const bool may_run = is_log && is_text && (line > l->first || follows);
+        if (named ? fails || (may_run && whole) : fails && follows)
             return make_row(l, line);
-        refuses = !named && follows && line > l->last;
+        refuses = named ? may_run : follows && line > l->last;
     }
     return !refuses || !is_text
                ? BR_OK

@@ -528,9 +528,10 @@ static bool split_sentence(struct splitter *s, const char *at)
     return true;
 }
 
-size_t br_line_stated(const char *line, char mark, char *room, struct br_token *token)
+size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
+                      struct br_token *token)
 {
-    struct splitter s = {BR_BY_WORDS, mark, room, token, 0};
+    struct splitter s = {by <= BR_BY_COLONS ? by : BR_BY_WORDS, mark, room, token, 0};
     split_sentence(&s, line);
     return s.count;
 }

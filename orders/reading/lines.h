@@ -64,7 +64,8 @@ struct br_token {
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token);
 
-/* The numbers that words before them name, up to one without a name, whatever the line is. */
-size_t br_line_stated(const char *line, char mark, char *room, struct br_token *token);
+/* The same of any line, as a sentence, up to a value without a name. */
+size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
+                      struct br_token *token);
 
 #endif
