@@ -188,15 +188,15 @@ static bool is_number(const struct layout *l, const char *text, double *value)
 
 /* Takes what a line states (l->field): numbers behind the names of columns, or else fields up to
  * the first column of numbers. Returns the column of its size; l->width: there is none; BR_NO_ROW:
- * it has a size of no column. *whole (out): all values are of columns. */
+ * it has a size of no column. *whole (out): all values are of columns, and no other column is
+ * named. */
 static size_t take_stated(struct layout *l, size_t line, bool *named, bool *whole)
 {
     size_t column = l->width, first = 0;
     double number;
     memset(l->field, 0, l->width * sizeof *l->field);
     const size_t count =
-        br_line_stated(l->line[line].text, l->by, l->fields->mark, l->room, l->token);
-    *whole = true;
+        br_line_stated(l->line[line].text, l->by, l->fields->mark, l->room, l->token, whole);
     for (size_t i = 0; i < count; i++) {
         const size_t c = column_of(l, l->token[i].name);
         const bool is_size = c == 0 || br_size_name_odds(l->token[i].name) >= BR_USUAL_NAME;
@@ -204,6 +204,11 @@ static size_t take_stated(struct layout *l, size_t line, bool *named, bool *whol
         *whole &= c < l->width && !l->field[c];
         if (c < l->width && !l->field[c])
             l->field[c] = l->token[i].text;
+    }
+    for (size_t c = 0; c < l->width && *whole; c++) {
+        const char *const heading = l->fields->heading[c];
+        *whole = l->field[c] || !heading || strlen(heading) < 3 ||
+                 !strcasestr(l->line[line].text, heading); /* "error 1.2-2" */
     }
     *named = column < l->width;
     if (column != l->width || l->by <= BR_BY_COLONS)

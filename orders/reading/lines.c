@@ -529,10 +529,10 @@ static bool split_sentence(struct splitter *s, const char *at)
 }
 
 size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
-                      struct br_token *token)
+                      struct br_token *token, bool *whole)
 {
     struct splitter s = {by <= BR_BY_COLONS ? by : BR_BY_WORDS, mark, room, token, 0};
-    split_sentence(&s, line);
+    *whole = split_sentence(&s, line);
     return s.count;
 }
 

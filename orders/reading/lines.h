@@ -64,8 +64,9 @@ struct br_token {
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token);
 
-/* The same of any line, as a sentence, up to a value without a name. */
+/* The same of any line, as a sentence, up to a value without a name; *whole (out): there is none.
+ */
 size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
-                      struct br_token *token);
+                      struct br_token *token, bool *whole);
 
 #endif
