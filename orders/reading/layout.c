@@ -28,7 +28,7 @@ struct row br_layout_look_at(struct layout *l, size_t line, char *room)
 }
 
 /* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
- * word costs one; a number in a sentence counts one, beside others. Each line counts with and
+ * word costs one; sentences count a third of it, if their names differ. Each line counts with and
  * without its empty tokens at the end; a heading decides between the two. */
 static long measure(struct layout *l)
 {
@@ -41,8 +41,8 @@ static long measure(struct layout *l)
         if (l->line[i].kind != BR_LINE_TEXT)
             continue;
         const struct row r = br_layout_look_at(l, i, l->room);
-        const long worth = l->by == BR_BY_WORDS ? r.count > 1 : 3;
-        const long more = r.numbers ? worth * (long)r.numbers - (long)r.words : 0;
+        const bool is_lone = l->by == BR_BY_WORDS && r.count < 2;
+        const long more = r.numbers && !is_lone ? 3 * (long)r.numbers - (long)r.words : 0;
         size_t filled = r.count;
         while (filled > 1 && l->token[filled - 1].content == BR_NOTHING)
             filled--;
@@ -60,6 +60,29 @@ static long measure(struct layout *l)
     return l->gain[best];
 }
 
+/* Whether all rows, by words, have the names of the first one: "dt 0.25  error 0.078". */
+static bool have_names(struct layout *l)
+{
+    const struct br_token *first = NULL;
+    size_t rows = 0;
+    for (size_t i = 0; i < l->lines; i++) {
+        char *room =
+            first ? l->room : br_store_take(&l->fields->store, BR_ROOM(l->line[i].text), 1);
+        if (l->line[i].kind != BR_LINE_TEXT || !room ||
+            br_layout_look_at(l, i, room).count != l->width)
+            continue;
+        for (size_t c = 0; c < l->width && first; c++)
+            if (strcmp(first[c].name, l->token[c].name) != 0)
+                return false;
+        struct br_token *const copy =
+            first ? NULL : br_store_take(&l->fields->store, l->width, sizeof *copy);
+        if (copy)
+            first = memcpy(copy, l->token, l->width * sizeof *copy);
+        rows++;
+    }
+    return l->width > 1 && rows > 1;
+}
+
 /* Chooses the way. Where none has numbers, the first line tells the widest. Refuses lines that are
  * too wide, before anything takes time. */
 static enum br_status choose(struct layout *l, size_t first)
@@ -70,7 +93,7 @@ static enum br_status choose(struct layout *l, size_t first)
     for (int i = 2 * BR_BY_WORDS; i < 2 * BR_SEPARATORS; i++) {
         l->by = (enum br_separator)(i / 2);
         l->fields->mark = ".,"[i % 2];
-        const long score = measure(l);
+        const long all = measure(l), score = l->by > BR_BY_WORDS || have_names(l) ? all : all / 3;
         if (score > most && (i % 2 == 0 || l->width > 1)) {
             most = score;
             best = i;

@@ -451,6 +451,31 @@ static bool take_names(struct layout *l, size_t line)
     return l->row[line].is_used = true;
 }
 
+/* Whether the words of a line above aligned columns name them, "L2 error" as well; then takes it.
+ * Rates have no names there, as their columns begin with a gap. */
+static bool take_names_above(struct layout *l, size_t line)
+{
+    struct br_store *store = &l->fields->store;
+    const struct br_line *heading = &l->line[line];
+    const char **name = l->fields->heading;
+    struct br_span *span = br_store_take(store, l->width, sizeof *span);
+    char *room = br_store_take(store, BR_ROOM(heading->text), 1);
+    bool named = l->by >= BR_BY_WIDE_BLANKS && span && room && strstr(heading->text, "  ") &&
+                 !l->row[line].numbers;
+    for (size_t i = l->first; named && i <= l->last; i++)
+        named = !l->row[i].is_row || br_spans_widen(span, l->width, &l->line[i]);
+    const size_t gaps = find_gaps(l);
+    named = named && br_names_above(heading, span, l->skipped, l->width, room, name);
+    for (size_t i = 0; i < l->width && gaps; i++)
+        named &= !name[i] || !br_layout_is_rate(name[i]);
+    l->fields->heading_line = named ? heading->number : 0;
+    if (!named) {
+        memset(l->skipped, 0, sizeof l->skipped);
+        memset(name, 0, l->width * sizeof *name);
+    }
+    return l->row[line].is_used = named;
+}
+
 /* Whether the line above the rows names all columns but an index or rates; then takes it. Pandas
  * has the name of an index alone below the others. */
 static bool take_short_heading(struct layout *l, size_t above)
@@ -583,7 +608,7 @@ static enum br_status find_heading(struct layout *l)
     }
     if (l->by <= BR_BY_COLONS)
         return BR_OK;
-    if (above < l->lines && take_names(l, above)) {
+    if (above < l->lines && (take_names_above(l, above) || take_names(l, above))) {
         const size_t group = next_text(l, above, -1);
         return group < l->lines ? join_groups(l, group) : BR_OK;
     }
