@@ -107,7 +107,8 @@ static double deviation_at(const struct br_roles *r, size_t row, size_t column)
     return r->column[column].deviation[row];
 }
 
-/* Puts the mean of repeated runs, with the standard deviation of the mean. */
+/* Puts the mean of repeated runs, with the standard deviation of the mean; NaN: one of them failed.
+ */
 static void take_means(struct source *s, size_t group, size_t column, size_t quantity)
 {
     const struct br_roles *r = &s->roles;
@@ -118,7 +119,7 @@ static void take_means(struct source *s, size_t group, size_t column, size_t qua
         for (int pass = 0; pass < 2; pass++)
             for (size_t i = 0; i < r->rows; i++) {
                 const double number = r->column[column].number[i];
-                if (r->dropped[i] || s->cell[i] != c || r->group[i] != group || isnan(number))
+                if (r->dropped[i] || s->cell[i] != c || r->group[i] != group)
                     continue;
                 count += !pass;
                 sum += pass ? 0 : number;

@@ -998,6 +998,10 @@ TEST(test_verdicts)
                                 "B,4,.25\nB,8,.125\nB,16,.0625\n";
     /* the run of the finest size failed */
     static const char lost[] = "h,l2\n4,16\n2,4\n1,1\n.5,.25\n.25,.0625\n.125,.015625\n.0625,inf\n";
+    static const char failed[] = "n,l2\n4,16\n8,4\n16,1\n32,.25\n64,.0625\n# 128 failed\n";
+    static const char repeats[] =
+        "n,run,l2\n4,1,16\n4,2,16.1\n8,1,4\n8,2,4.1\n16,1,1\n16,2,1.01\n"
+        "32,1,.25\n32,2,.251\n64,1,.0625\n64,2,.0626\n128,1,.0156\n128,2,nan\n";
     char line[1024], grid[4096], floor[4096], blown[4096];
     strcpy(line, table_of(5, 0, 2, 0));
     strcpy(grid, table_of(5, 5, 2, 1));
@@ -1023,6 +1027,8 @@ TEST(test_verdicts)
          "3 of 5 errors can be used, an order needs 4"},
         {lost, NULL, ">= 1.8", BR_INCONCLUSIVE, "the finest row, h = 0.0625, has no number"},
         {lost, NULL, "2.5 +- 0.1", BR_FAIL, ""},
+        {repeats, NULL, "2", BR_INCONCLUSIVE, "the finest row, n = 128, has no number"},
+        {failed, NULL, "2", BR_INCONCLUSIVE, "the finest row, n = 128, has no number"},
         {cases, NULL, "l2 [m = A] = 2", BR_PASS, ""}, /* it has no row n = 16 */
         {lost, "l2", "2", BR_INCONCLUSIVE, "h = 0.0625, has no number; without it the others"},
         {blown, NULL, "h 2", BR_INCONCLUSIVE, "the finest row, h = 0.03125, k = 0.03125, has no"},

@@ -342,6 +342,14 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
     return false;
 }
 
+/* The end of the sides of a mesh, "[8 8]" or "(8, 8)", that a token begins with; NULL: there are
+ * none. */
+static const char *sides_end(const char *at)
+{
+    const size_t size = *at && strchr("[(", *at) ? strspn(at + 1, "0123456789, ") : 0;
+    return size && at[size + 1] == (*at == '[' ? ']' : ')') ? at + size + 2 : NULL;
+}
+
 /* The end of a norm, "||u||", that a token begins with; NULL: there is none. */
 static const char *norm_end(const char *at)
 {
@@ -361,6 +369,7 @@ static void split_signs(struct splitter *s, const char *at)
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
         const char *const begin = at, *end = bars ? norm_end(at) : NULL;
+        end = end ? end : sides_end(at);
         end = end ? end : quoted_end(at, by);
         at = end ? end : at;
         while (*at && !(ends_token(begin, at, by, &bytes) &&
@@ -383,7 +392,8 @@ static const char *begin_of_name(const char *at, const char *end)
         const bool no_name = strspn(word, "+-.:;,|\x01"
                                           "0123456789") >= length;
         const bool is_last = length && strchr(",;:|", word[length - 1]);
-        if (next < end && (no_name || is_last || next > word + length + 1))
+        const bool is_bar = length == 1 && strchr("|&", *word);
+        if (is_bar || (next < end && (no_name || is_last || next > word + length + 1)))
             begin = next;
     }
     while (begin < end && strchr(",; \t\x01", *begin))
@@ -408,49 +418,86 @@ static bool is_missing_at_end(const char *text, const char *behind)
            strchr(",;", *behind);
 }
 
-/* The next number among the words from `at` to `end`, or one that is missing; *behind (out): the
- * end of its word. NULL: there is none. */
-static const char *next_number(const struct splitter *s, const char *at, const char *end,
-                               const char **behind)
+/* The end of a word, which may have a decimal comma, or be a time, "12:30". */
+static const char *word_end(const struct splitter *s, const char *word)
+{
+    word += strcspn(word, s->by == BR_BY_COLONS ? " \t\x01,;=:" : " \t\x01,;=");
+    const bool goes_on = *word == ':' || (*word == ',' && s->mark == ',');
+    return goes_on && isdigit((unsigned char)word[-1]) && isdigit((unsigned char)word[1])
+               ? word_end(s, word + 1)
+               : word;
+}
+
+/* The value behind the sign of a pair between two places; NULL: there is no sign. */
+static const char *signed_value(const struct splitter *s, const char *from, const char *to)
+{
+    const char *const sign =
+        s->by == BR_BY_WORDS ? NULL
+                             : memchr(from, s->by == BR_BY_EQUALS ? '=' : ':', (size_t)(to - from));
+    return sign ? sign + 1 + strspn(sign + 1, " \t\x01=") : NULL;
+}
+
+/* The next value among the words from `at` to its end: a number, one that is missing, or whatever
+ * stands behind the sign of a pair; *behind (out): its end. NULL: there is none. */
+static const char *next_value(const struct splitter *s, const char *at, const char **behind)
 {
     struct br_field_number number;
-    for (const char *word = at; word < end; word = *behind) {
+    for (const char *word = at; *word; word = *behind) {
         char text[64];
-        word += strspn(word, " \t,;:=(");
-        if (word >= end)
-            break;
-        *behind = word + strcspn(word, " \t,;=");
+        const char *const plain = word + strspn(word, " \t\x01,;:=("), *const value = signed_value(
+                                                                           s, word, plain);
+        word = value ? value : plain;
+        const char *const sides = sides_end(word);
+        *behind = sides ? sides : word_end(s, word);
         for (size_t blanks; (blanks = strspn(*behind, " ")) && is_in_number(word, *behind, blanks);)
-            *behind += blanks + strcspn(*behind + blanks, " \t,;=");
-        *behind = *behind < end ? *behind : end;
+            *behind = word_end(s, *behind + blanks);
         const long length = end_of_word(word, *behind) - word;
         snprintf(text, sizeof text, "%.*s", length > 0 && length < 64 ? (int)length : 0, word);
-        if (br_field_read(text, s->mark, &number) || is_missing_at_end(text, *behind))
+        if (value || br_field_read(text, s->mark, &number) || is_missing_at_end(text, *behind))
             return word;
     }
     return NULL;
+}
+
+/* Whether a word from `at` to `end` is one of the words. */
+static bool is_one_of(const char *words, const char *at, const char *end)
+{
+    char word[16];
+    snprintf(word, sizeof word, " %.*s ", end - at < 12 ? (int)(end - at) : 12, at);
+    return strcasestr(words, word);
 }
 
 /* Whether a name without its last word says that this one is a size: it is nothing of its own, as
  * "Running" before "dt", or "error for" before "n"; but the "error in" h is an error. */
 static bool is_of_a_size(const char *name, const char *last)
 {
-    static const char *const before[] = {" for", " at", " with"};
-    bool is = !br_kind_of(name);
-    for (size_t i = 0; i < sizeof before / sizeof *before; i++) {
-        const size_t length = strlen(before[i]);
-        is |= last - name > (long)length && strncmp(last - length, before[i], length) == 0;
-    }
-    return is;
+    const char *const before = memrchr(name, ' ', (size_t)(last - name));
+    return !br_kind_of(name) || (before && is_one_of(" for at with ", before + 1, last));
 }
 
-/* A name from `at` to `end`, without the blanks and signs behind it. The symbol of a size at its
- * end is the name, whatever a sentence has before it. */
+/* Moves the ends of a name inwards, past blanks, signs, and words that only join a sentence, as in
+ * "and the H1 error is"; but a name has one word. */
+static void trim_name(const char **at, const char **end)
+{
+    static const char joins[] = " and the its with for of at on in then so has gives ",
+                      verbs[] = " is was are were equals of ";
+    while (*end > *at && strchr(" \t=:,(", (*end)[-1]))
+        --*end;
+    for (const char *next;
+         (next = memchr(*at, ' ', (size_t)(*end - *at))) && is_one_of(joins, *at, next);)
+        *at = next + strspn(next, " ");
+    for (const char *last;
+         (last = memrchr(*at, ' ', (size_t)(*end - *at))) && is_one_of(verbs, last + 1, *end);)
+        for (*end = last; (*end)[-1] == ' ';)
+            --*end;
+}
+
+/* A name from `at` to `end`. The symbol of a size at its end is the name, whatever a sentence has
+ * before it. */
 static const char *copy_name(struct splitter *s, const char *at, const char *end)
 {
     const size_t longest_symbol = 2;
-    while (end > at && strchr(" \t=:,(", end[-1]))
-        end--;
+    trim_name(&at, &end);
     const char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
     const bool is_symbol = last && strlen(last + 1) <= longest_symbol &&
                            br_size_name_odds(last + 1) >= BR_USUAL_NAME && is_of_a_size(name, last);
@@ -483,69 +530,40 @@ static bool has_exponent_behind(const char *at)
     return isdigit((unsigned char)*digits);
 }
 
-/* Whether a word from `at` to `end` is a number; then adds the last one, named by what is before
- * it. */
-static bool add_label(struct splitter *s, const char *at, const char *end)
-{
-    const char *last = NULL, *last_end = NULL, *behind = at;
-    for (const char *next; (next = next_number(s, behind, end, &behind));) {
-        last = next;
-        last_end = behind;
-    }
-    if (last)
-        add_token(s, last, end_of_word(last, last_end), copy_name(s, at, last));
-    return last;
-}
-
-/* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
- * numbers between or behind them are no pairs. */
-static bool split_pairs(struct splitter *s, const char *at, char sign)
-{
-    at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
-    for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
-        const char *const name = begin_of_name(at, equals);
-        const size_t before = s->count;
-        if (add_label(s, at, name) && (before > 0 || name - at > 60))
-            return false;
-        const char *const value = equals + 1 + strspn(equals + 1, " \t");
-        at = value;
-        while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
-               !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
-            at++;
-        const char *const end = at - (at > value && at[-1] == ':');
-        add_token(s, value, end, add_unit(s, copy_name(s, name, equals), &at));
-        if (strspn(name, " +-.0123456789") >= (size_t)(equals - name) || has_exponent_behind(at))
-            return false; /* a time, as 12:30 */
-    }
-    return !add_label(s, at, at + strlen(at));
-}
-
-/* Numbers in a sentence, each named by the words before it: "N = 16: error 1.2e-2". */
+/* Values in a sentence, each named by the words before it: "N = 16: error 1.2e-2". In front may be
+ * a time, or a label: "10: e = 0.1". Whether all of them have a name. */
 static bool split_sentence(struct splitter *s, const char *at)
 {
-    const char *const end = at + strlen(at);
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0;
     const char *behind = at;
-    for (const char *next; (next = next_number(s, behind, end, &behind)); at = behind) {
+    for (const char *next; (next = next_value(s, behind, &behind)); at = behind) {
         const char *const begin = begin_of_name(at, next);
         const char *name = copy_name(s, begin + (*begin == '('), next);
-        if (!*name || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
-            return false;
         const char *const last = end_of_word(next, behind);
+        if ((!*name && s->count) || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
+            return false;
         name = add_unit(s, name, &behind);
         add_token(s, next, last, name);
     }
     return true;
 }
 
+size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
+                      struct br_token *token, bool *whole)
+{
+    struct splitter s = {by <= BR_BY_COLONS ? by : BR_BY_WORDS, mark, room, token, 0};
+    *whole = split_sentence(&s, line);
+    return s.count;
+}
+
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token)
 {
     struct splitter s = {by, mark, room, token, 0};
-    if (by == BR_BY_WORDS)
-        return split_sentence(&s, line) ? s.count : 0;
-    if (by <= BR_BY_COLONS)
-        return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
+    if (by <= BR_BY_COLONS) {
+        const bool has_sign = by == BR_BY_WORDS || strchr(line, by == BR_BY_EQUALS ? '=' : ':');
+        return has_sign && split_sentence(&s, line) ? s.count : 0;
+    }
     split_signs(&s, line);
     return s.count;
 }

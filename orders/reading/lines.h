@@ -28,8 +28,13 @@ enum { BR_BOX_BAR = '\x01' };
 enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
                             struct br_line **line, size_t *count, struct br_error *err);
 
-/* Pairs: "h = 0.1  e = 0.2", "n: 8, e: 0.1". Words: "N = 8: error 0.1", a name before each number;
- * for lines that nothing else splits into numbers. */
+/* Joins the lines of each run of a log to one, where its size and its errors have lines of their
+ * own (log.c). Fails with BR_NO_MEMORY. */
+enum br_status br_log_fold(struct br_line *line, size_t lines, struct br_store *store,
+                           struct br_error *err);
+
+/* The first three are sentences, with a name before each number: "N = 8: error 0.1". Those of pairs
+ * have values behind signs, which may be words: "h = 0.1  m = P1", "n: 8, e: 0.1". */
 enum br_separator {
     BR_BY_WORDS,
     BR_BY_EQUALS,
@@ -59,6 +64,11 @@ struct br_token {
 #define BR_ROOM(line) (3 * strlen(line) + 4)
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token);
+
+/* The same of any line, as a sentence, up to a value without a name; *whole (out): there is none.
+ */
+size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
+                      struct br_token *token, bool *whole);
 
 /* ---- names by where they stand ---- */
 

@@ -68,7 +68,7 @@ static const struct {
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
      "setup rhs solve solver assemble assembly mb gb mib gib nnz nonzeros threads ranks procs cores "
      "cycle index row memory mem ram newton gmres cg nit niter flops cost elapsed ms step id idx "
-     "date timestamp run_id speedup zeit tol tolerance atol rtol "},
+     "date timestamp run_id speedup took zeit tol tolerance atol rtol "},
     {BR_KIND_DEGREE, " degree deg poly polynomial polydeg pdeg "},
     {BR_KIND_REPEAT, " seed repeat replicate trial run sample rep repetition "},
     {BR_KIND_ERROR,
@@ -267,19 +267,15 @@ static bool is_length(const char *name, const char *unit)
 char *br_unit_behind_slash(char *name)
 {
     char unit[LONGEST], *slash = strrchr(name, '/');
-    static const struct {
-        const char *column;
-        enum br_axis axis;
-    } sizes[] = {{"h", BR_AXIS_SPACE}, {"dt", BR_AXIS_TIME}, {"k", BR_AXIS_TIME}};
     if (!slash || slash == name)
         return NULL;
     char *at = slash + 1 + strspn(slash + 1, " {$\\");
     at += strncmp(at, "mathrm{", 7) == 0 ? 7 : strncmp(at, "text{", 5) == 0 ? 5 : 0;
     at[strcspn(at, " }$")] = *slash = '\0';
     snprintf(unit, sizeof unit, "%s", at);
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
-        if (is_unit_of(sizes[i].axis, unit) &&
-            br_name_odds(name, unit, br_resolution_column_find(sizes[i].column)) >= BR_USUAL_NAME) {
+    for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
+        if (c->is_size && is_unit_of(c->axis, unit) &&
+            br_name_odds(name, unit, c) >= BR_USUAL_NAME) {
             while (slash[-1] == ' ')
                 *--slash = '\0';
             return at;

@@ -2,6 +2,7 @@
 /* A field of a table as a number: first its signs are made those of C, then it is read by a small
  * grammar, whole or not at all:
  *     field     = term [deviation | power] ["%"] term = number ["x 10^" number]
+ *                                                     | "[8 8]", "(8, 8)": the same number
  *     deviation = "+-" term | "(12)"                  | number "/" number | number "^" number
  *     power     = "(-12)" | "(+12)"                   | number "x" the same number ...
  *                                                     | [number] "pi" ["/" number] */
@@ -188,6 +189,19 @@ static const char *take_pi(struct reader *r, const char *at, double *value)
     return pi + 2;
 }
 
+/* "[8 8]", "(8, 8, 8)": the cells of a mesh along each side. */
+static const char *take_sides(struct reader *r, const char *at, double *value)
+{
+    const char close = *at == '[' ? ']' : ')';
+    double side;
+    size_t more = 0;
+    for (at = take_number(r, skip(at + 1), value); at && *skip(at) != close; more++) {
+        at = *at == ' ' ? take_number(r, skip(at), &side) : NULL;
+        at = at && side == *value ? at : NULL;
+    }
+    return at && more ? skip(at) + 1 : NULL;
+}
+
 static const char *take_term(struct reader *r, const char *at, double *value)
 {
     double second;
@@ -241,7 +255,11 @@ bool br_field_read(const char *text, char mark, struct br_field_number *number)
     *number = (struct br_field_number){NAN, NAN, NAN};
     if (!make_plain(text + (*text == '~'), plain)) /* "~0.04": about */
         return false;
-    const char *at = take_term(&r, plain, &number->value);
+    const bool has_sides = *plain && strchr("[(", *plain);
+    for (char *comma = plain; has_sides && (comma = strchr(comma, ','));)
+        *comma = ' ';
+    const char *at =
+        has_sides ? take_sides(&r, plain, &number->value) : take_term(&r, plain, &number->value);
     if (at && *skip(at) == PLUS_MINUS)
         at = take_term(&r, skip(skip(at) + 1), &number->deviation);
     else if (at && *skip(at) == '(')

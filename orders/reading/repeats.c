@@ -10,7 +10,7 @@
 
 struct repeated_run {
     size_t group, row;
-    double z[BR_AXES], error;
+    double z[BR_AXES], error; /* -infinity: none, which counts more than others of its size */
 };
 
 static int by_run(const void *a, const void *b)
@@ -111,7 +111,8 @@ enum br_status br_roles_take_repeats(struct br_roles *r, struct br_error *err)
         if (r->dropped[i])
             continue;
         struct repeated_run *of = &run[count++];
-        *of = (struct repeated_run){r->group[i], i, {0, 0}, r->column[error].number[i]};
+        const double number = r->column[error].number[i];
+        *of = (struct repeated_run){r->group[i], i, {0, 0}, isnan(number) ? -INFINITY : number};
         for (int axis = 0; axis < BR_AXES; axis++)
             of->z[axis] = !r->log_z[axis] ? 0
                           : isfinite(r->log_z[axis][i])

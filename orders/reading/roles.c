@@ -358,6 +358,28 @@ static enum br_status check_residuals(const struct br_roles *r, const size_t *so
                : BR_OK;
 }
 
+/* A column that is called an error, and counts, beside errors that have other names. */
+static enum br_status check_counting_errors(const struct br_roles *r, struct br_error *err)
+{
+    const struct br_role_column *counts = NULL, *other = NULL;
+    bool named = r->wishes->errors || r->wishes->values;
+    for (const struct br_role_column *c = r->column; c < r->column + r->columns; c++) {
+        const bool is_error = c->kind == BR_KIND_ERROR;
+        named |= br_role_is_studied(c) && (is_error || c->by_hand);
+        other = br_role_is_studied(c) ? c : other;
+        counts =
+            !br_role_is_studied(c) && is_error && c->is_whole && c->least < c->most && !c->by_hand
+                ? c
+                : counts;
+    }
+    return !named && counts && other
+               ? br_fail(err, BR_BAD_INPUT,
+                         "%s: %s counts, and %s falls: which one is the error? --error '%s', or "
+                         "--error '%s', decides",
+                         r->wishes->path, counts->label, other->label, other->label, counts->label)
+               : BR_OK;
+}
+
 /* ---- all ---- */
 
 /* Whether a column may count unknowns or cells, or there is none of the mesh. */
@@ -396,7 +418,8 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     take_errors(r, &over, sorted);
     return compare_rates(r, &over, err) || number_names(r, err) ||
                    check_swap(r, &over, sorted, err) || check_residuals(r, sorted, err) ||
-                   check_rates_alone(r, err) || br_roles_take_repeats(r, err)
+                   check_counting_errors(r, err) || check_rates_alone(r, err) ||
+                   br_roles_take_repeats(r, err)
                ? err->status
                : BR_OK;
 }

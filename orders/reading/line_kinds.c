@@ -1,0 +1,665 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a line of a table is: a heading, a row, a comment, a title, a footer, a row of means, or
+ * that of a run that failed. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/words.h"
+#include "orders/reading/layout.h"
+
+/* ---- rows ---- */
+
+static bool says_one_of(const char *const *words, const char *text)
+{
+    while (*words && !strcasestr(text, *words))
+        words++;
+    return *words;
+}
+
+static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
+
+/* Whether a line, or one of those below it, up to the next row, says that a run failed. */
+static bool says_failure(const struct layout *l, size_t line, size_t lines)
+{
+    static const char *const words[] = {
+        "fail",      "diverg",    "crash",      "abort",    "killed",   "not conv",  "no conv",
+        "out of m",  "no memory", "blew up",    "blows up", "timeout",  "timed out", "unstable",
+        "did not f", "oom",       "terminated", "stopped",  "overflow", NULL};
+    bool says = false;
+    for (size_t i = line; i < l->lines && i < line + lines && !l->row[i].is_row && !says; i++)
+        says = says_one_of(words, l->line[i].text) || says_one_of(crashes, l->line[i].text);
+    return says;
+}
+
+/* Whether a line has numbers in half of the columns of numbers, or nothing at all. */
+static bool is_like_rows(const struct layout *l, const struct row *r)
+{
+    size_t all = 0, there = 0;
+    for (size_t c = 0; c < l->width && r->count == l->width; c++) {
+        all += 2 * l->has_number[c] > l->rows;
+        there += 2 * l->has_number[c] > l->rows && r->token[c].content < BR_WORD;
+    }
+    return r->count == l->width && 2 * there >= all && (r->numbers || !r->words);
+}
+
+/* Whether a line of names and numbers tells of a failure instead: "N = 32: diverged in step 3". */
+static bool tells_failure(const struct layout *l, size_t line)
+{
+    bool others = false;
+    const struct br_token *const token = l->row[line].token;
+    for (size_t c = 0; c < l->width && l->first < l->lines && token->name; c++)
+        others |= strcmp(token[c].name, l->row[l->first].token[c].name) != 0;
+    return others && says_failure(l, line, 1);
+}
+
+static enum br_status find_rows(struct layout *l)
+{
+    l->first = l->lines;
+    for (size_t i = 0; i < l->lines; i++) {
+        l->row[i].is_row =
+            l->line[i].kind == BR_LINE_TEXT && is_like_rows(l, &l->row[i]) && !tells_failure(l, i);
+        l->first = l->row[i].is_row && l->first == l->lines ? i : l->first;
+        l->last = l->row[i].is_row ? i : l->last;
+    }
+    return l->first < l->lines
+               ? BR_OK
+               : br_fail(l->err, BR_BAD_INPUT, "%s:1: found no row of numbers", l->path);
+}
+
+/* Whether the first word of a row is one of means, where others have a number. */
+static bool is_summary(const struct row *r)
+{
+    static const char *const words[] = {"mean",  "average", "avg", "overall", "slope",
+                                        "order", "eoc",     "fit", "total",   "median",
+                                        "min",   "max",     "std", "rate"};
+    const char *const text = r->count ? r->token->text + strspn(r->token->text, "*_ ") : "";
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strncasecmp(text, words[i], strlen(words[i])) == 0)
+            return true;
+    return false;
+}
+
+/* The next line of text above (step -1) or below one; l->lines: there is none. */
+static size_t next_text(const struct layout *l, size_t line, int step)
+{
+    do
+        line += (size_t)step;
+    while (line < l->lines && l->line[line].kind != BR_LINE_TEXT);
+    return line < l->lines ? line : l->lines;
+}
+
+static bool is_short(const struct layout *l, size_t line)
+{
+    const struct row *r = &l->row[line];
+    return line < l->lines && l->by > BR_BY_COLONS && r->count < l->width && r->count > 1 &&
+           r->numbers && !r->words;
+}
+
+bool br_layout_is_row(const struct layout *l, size_t line)
+{
+    return line >= l->first && line <= l->last && (l->row[line].is_row || is_short(l, line));
+}
+
+/* Whether a row has a word where others have a number. */
+static bool has_other_words(const struct layout *l, size_t line)
+{
+    bool words = false;
+    for (size_t i = 0; i < l->width; i++)
+        words |= l->has_number[i] > 1 && l->row[line].token[i].content >= BR_WORD;
+    return words;
+}
+
+/* Finds the ends of the table: without titles and rows of means; with a first or last row that is
+ * short. */
+static void find_ends(struct layout *l)
+{
+    while (l->first < l->last && !l->row[next_text(l, l->first, 1)].is_row &&
+           has_other_words(l, l->first)) {
+        l->row[l->first].is_row = false;
+        while (!l->row[l->first].is_row)
+            l->first = next_text(l, l->first, 1);
+    }
+    while (l->last > l->first && l->has_number[0] && is_summary(&l->row[l->last]))
+        for (l->row[l->last].is_row = false; !l->row[l->last].is_row;)
+            l->last = next_text(l, l->last, -1);
+    const size_t above = next_text(l, l->first, -1), below = next_text(l, l->last, 1);
+    l->first = is_short(l, above) ? above : l->first;
+    l->last = is_short(l, below) ? below : l->last;
+}
+
+enum br_status br_layout_refuse_row(const struct layout *l, size_t line, const char *like)
+{
+    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than the %zu fields of the %s", l->path,
+                   l->line[line].number, l->row[line].count > l->width ? "more" : "fewer", l->width,
+                   like);
+}
+
+/* Whether two columns rise or fall through all rows: they are one sequence, whatever stands between
+ * them. */
+static bool is_sequence(const struct layout *l)
+{
+    size_t columns = 0, rows = 0;
+    for (size_t c = 0; c < l->width; c++, rows = 0) {
+        struct br_field_number number, before = {0};
+        size_t up = 0, down = 0, read = 0;
+        for (size_t i = l->first; i <= l->last; i++) {
+            const struct row *r = &l->row[i];
+            rows += r->is_row;
+            if (!r->is_row || !br_field_read(r->token[c].text, l->fields->mark, &number))
+                continue;
+            up += read && number.value > before.value;
+            down += read && number.value < before.value;
+            before = number;
+            read++;
+        }
+        columns += read > 2 && read + 1 >= rows && (up + 1 == read || down + 1 == read);
+    }
+    return columns > 1;
+}
+
+/* ---- failed runs: rows with a size, and without numbers ---- */
+
+/* The column whose heading a name is, or ends with as a word: "Run N"; l->width: there is none. */
+static size_t column_of(const struct layout *l, const char *name)
+{
+    size_t column = 0;
+    const size_t all = strlen(name);
+    for (; column < l->width; column++) {
+        const char *const heading = l->fields->heading[column];
+        size_t size = heading ? strcspn(heading, strpbrk(name, "[(") ? "" : "[(") : 0;
+        while (size && heading[size - 1] == ' ')
+            size--;
+        if (size && all >= size && strncasecmp(name + all - size, heading, size) == 0 &&
+            (all == size || name[all - size - 1] == ' '))
+            break;
+    }
+    return column;
+}
+
+static bool is_number(const struct layout *l, const char *text, double *value)
+{
+    struct br_field_number number;
+    const bool reads = text && br_field_read(text, l->fields->mark, &number);
+    *value = reads ? number.value : (double)NAN;
+    return reads;
+}
+
+/* Takes what a line states (l->field): numbers behind the names of columns, or else fields up to
+ * the first column of numbers. Returns the column of its size; l->width: there is none; BR_NO_ROW:
+ * it has a size of no column. *whole (out): all values are of columns, and no other column is
+ * named. */
+static size_t take_stated(struct layout *l, size_t line, bool *named, bool *whole)
+{
+    size_t column = l->width, first = 0;
+    double number;
+    memset(l->field, 0, l->width * sizeof *l->field);
+    const size_t count =
+        br_line_stated(l->line[line].text, l->by, l->fields->mark, l->room, l->token, whole);
+    for (size_t i = 0; i < count; i++) {
+        const size_t c = column_of(l, l->token[i].name);
+        const bool is_size = c == 0 || br_size_name_odds(l->token[i].name) >= BR_USUAL_NAME;
+        column = is_size && column >= l->width ? (c < l->width ? c : BR_NO_ROW) : column;
+        *whole &= c < l->width && !l->field[c];
+        if (c < l->width && !l->field[c])
+            l->field[c] = l->token[i].text;
+    }
+    for (size_t c = 0; c < l->width && *whole; c++) {
+        const char *const heading = l->fields->heading[c];
+        *whole = l->field[c] || !heading || strlen(heading) < 3 ||
+                 !strcasestr(l->line[line].text, heading); /* "error 1.2-2" */
+    }
+    *named = column < l->width;
+    if (column != l->width || l->by <= BR_BY_COLONS)
+        return column;
+    memset(l->field, 0, l->width * sizeof *l->field);
+    const struct row r = br_layout_look_at(l, line, l->room);
+    while (first < l->width && l->has_number[first] < l->rows)
+        first++;
+    if (first >= r.count || first == l->width || is_summary(&r))
+        return l->width;
+    char *const size = r.token[first].text; /* "128: no memory", of commas "128 failed" */
+    if (r.token[first].content != BR_NUMBER)
+        size[strcspn(size, " :")] = '\0';
+    for (size_t i = 0; i <= first; i++)
+        l->field[i] = r.token[i].text;
+    return is_number(l, l->field[first], &number) ? first : l->width;
+}
+
+/* Whether a row has all that a line states. */
+static bool is_stated_in(const struct layout *l, const struct row *r)
+{
+    bool all = true;
+    double a, b;
+    for (size_t c = 0; c < l->width && all; c++)
+        all = !l->field[c] || (is_number(l, l->field[c], &a) && is_number(l, r->token[c].text, &b)
+                                   ? a == b
+                                   : strcmp(l->field[c], r->token[c].text) == 0);
+    return all;
+}
+
+/* Whether no row has what a line states; *follows (out): its size continues those of the rows. */
+static bool is_further(const struct layout *l, size_t line, size_t column, bool *follows)
+{
+    double size, row, first = NAN, before = NAN, after = NAN, last = NAN;
+    for (size_t i = l->first; i <= l->last; i++) {
+        if (!l->row[i].is_row || !is_number(l, l->row[i].token[column].text, &row))
+            continue;
+        if (is_stated_in(l, &l->row[i]))
+            return false;
+        first = isnan(first) ? row : first;
+        before = i < line ? row : before;
+        after = i > line && isnan(after) ? row : after;
+        last = row;
+    }
+    const bool reads = is_number(l, l->field[column], &size) && size > 0;
+    const double up = isnan(after) ? before - first : isnan(before) ? last - after : after - before;
+    *follows = !((size - before) * up <= 0) && !((after - size) * up <= 0);
+    return reads;
+}
+
+static enum br_status make_row(struct layout *l, size_t line)
+{
+    struct row *r = &l->row[line];
+    double number;
+    if (br_layout_count_row(l, line))
+        return l->err->status;
+    r->token = br_store_take(&l->fields->store, l->width, sizeof *r->token);
+    for (size_t c = 0; c < l->width && r->token; c++) {
+        const char *const text = l->field[c] ? l->field[c] : "";
+        r->token[c] = (struct br_token){br_store_copy(&l->fields->store, text), NULL, BR_MISSING};
+        l->has_number[c] += !*text || is_number(l, text, &number);
+    }
+    if (l->fields->store.failed)
+        return br_no_memory(l->err, "the table");
+    r->count = l->width;
+    r->is_row = l->has_failed = true;
+    l->first = line < l->first ? line : l->first;
+    l->last = line > l->last ? line : l->last;
+    return BR_OK;
+}
+
+enum { MOST_LINES = 20 /* of a failure */ };
+
+/* Makes a line that states a further size a row: where a run failed, or did not end. Refuses what
+ * may be one. */
+static enum br_status take_failed_run(struct layout *l, size_t line)
+{
+    bool named, whole, follows;
+    const bool is_text = l->line[line].kind == BR_LINE_TEXT, is_log = l->by <= BR_BY_COLONS;
+    const size_t column = take_stated(l, line, &named, &whole);
+    bool refuses = !l->has_failed && line > l->first && says_one_of(crashes, l->line[line].text);
+    if (column == BR_NO_ROW)
+        refuses = says_failure(l, line, 1);
+    else if (column < l->width) {
+        if (!is_further(l, line, column, &follows))
+            return BR_OK;
+        const bool fails = says_failure(l, line, is_text ? MOST_LINES : 1);
+        const bool may_run = is_log && is_text && (line > l->first || follows);
+        if (named ? fails || (may_run && whole) : fails && follows)
+            return make_row(l, line);
+        refuses = named ? may_run : follows && line > l->last;
+    }
+    return !refuses || !is_text
+               ? BR_OK
+               : br_fail(l->err, BR_BAD_INPUT,
+                         "%s:%zu: found '%.40s', expected a row of %zu fields: write nan for a "
+                         "number that is missing, or # before a line that is no row",
+                         l->path, l->line[line].number, l->line[line].text, l->width);
+}
+
+/* Takes failed runs. Refuses what is no row between rows, but text in a sequence, and rows beside
+ * them that are others. */
+static enum br_status check_lines(struct layout *l)
+{
+    size_t before = l->first, others = 0;
+    const bool sequence = is_sequence(l);
+    for (size_t i = 0; i < l->lines; i++) {
+        const struct row *r = &l->row[i];
+        const bool is_text = l->line[i].kind == BR_LINE_TEXT;
+        const bool inside = i >= l->first && i <= l->last;
+        const bool is_data = (r->numbers > 1 || i > l->last) && r->numbers > r->words &&
+                             l->by > BR_BY_COLONS && !br_layout_is_row(l, i);
+        if (is_text && r->count != l->width && is_data && !(r->words && !inside))
+            return br_layout_refuse_row(l, i, l->fields->heading_line ? "heading" : "first row");
+        if ((is_text || i > l->first) && l->line[i].kind != BR_LINE_EMPTY && !r->is_used &&
+            !br_layout_is_row(l, i) && take_failed_run(l, i))
+            return l->err->status;
+        if (!is_text || br_layout_is_row(l, i)) {
+            before = br_layout_is_row(l, i) ? i : before;
+            continue;
+        }
+        others += is_data;
+        if ((inside && !(sequence && r->numbers <= r->words)) || others > 1)
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found '%.40s' between or beside the rows of lines %zu to %zu, "
+                           "expected one table",
+                           l->path, l->line[i].number, l->line[i].text, l->line[l->first].number,
+                           l->line[inside ? before : l->last].number);
+    }
+    return BR_OK;
+}
+
+/* Whether a row has the size of the first one again: a number that the second row does not have,
+ * beside the same words. */
+static bool begins_again(const struct layout *l, size_t line)
+{
+    bool again = false;
+    const struct row *first = &l->row[l->first], *next = &l->row[next_text(l, l->first, 1)];
+    for (size_t i = 0; i < l->width; i++) {
+        const char *const text = first->token[i].text;
+        const bool is_same = strcmp(text, l->row[line].token[i].text) == 0;
+        if (2 * l->has_number[i] <= l->rows && !is_same)
+            return false;
+        again |= is_same && !br_field_is_missing(text) &&
+                 !br_layout_is_rate(l->fields->heading[i]) &&
+                 (i >= next->count || strcmp(text, next->token[i].text) != 0);
+    }
+    return again;
+}
+
+/* Refuses rows that begin again behind a gap or a rule: a table of its own. */
+static enum br_status check_blocks(const struct layout *l)
+{
+    for (size_t i = l->first + 1; i <= l->last && l->row[l->first].count == l->width; i++)
+        if (l->row[i].is_row && l->line[i].number > l->line[next_text(l, i, -1)].number + 1 &&
+            begins_again(l, i))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: the rows begin again as on line %zu, expected one table",
+                           l->path, l->line[i].number, l->line[l->first].number);
+    return BR_OK;
+}
+
+/* ---- the heading ---- */
+
+/* Whether the first column counts the rows or has words, as an index in front of them. */
+static bool has_index(const struct layout *l)
+{
+    struct br_field_number one, two;
+    const size_t next = next_text(l, l->first, 1);
+    if (next > l->last || l->width < 2)
+        return false;
+    const char *const text = l->row[l->first].token->text;
+    if (!br_field_read(text, '.', &one))
+        return !br_field_is_missing(text);
+    return (one.value == 0 || one.value == 1) &&
+           (!br_field_read(l->row[next].token->text, '.', &two) || two.value == one.value + 1);
+}
+
+/* Which columns begin with a gap, as those of rates do (l->skipped); returns how many. */
+static size_t find_gaps(struct layout *l)
+{
+    const struct row *r = &l->row[l->first];
+    size_t gaps = 0;
+    for (size_t i = 0; i < l->width; i++) {
+        l->skipped[i] = i >= r->count || r->token[i].content == BR_NOTHING ||
+                        (r->token[i].content == BR_MISSING && *r->token[i].text == '-');
+        gaps += l->skipped[i];
+    }
+    return r->count == l->width || l->rows > 1 ? gaps : 0;
+}
+
+/* Splits a line in the way of the rows or another one, so that it has `wanted` tokens (l->token).
+ */
+static bool split_names(struct layout *l, size_t line, size_t wanted)
+{
+    const char *const text = l->line[line].text;
+    char *room = br_store_take(&l->fields->store, BR_ROOM(text), 1);
+    for (int i = BR_BY_TABS - 1; room && i < BR_SEPARATORS; i++) {
+        const enum br_separator by = i < BR_BY_TABS ? l->by : (enum br_separator)i;
+        size_t count = br_line_split(text, by, '.', room, l->token);
+        while (count > wanted && l->token[count - 1].content == BR_NOTHING)
+            count--;
+        if (count == wanted)
+            return true;
+    }
+    return false;
+}
+
+/* A name without the stars and quotes of Markdown around it, and without gnuplot's "1:", in place;
+ * NULL: it is empty. */
+static const char *plain_name(char *name, size_t column)
+{
+    char counted[24];
+    snprintf(counted, sizeof counted, "%zu:", column + 1);
+    if (strncmp(name, counted, strlen(counted)) == 0 && name[strlen(counted)])
+        name += strlen(counted);
+    name += strspn(name, "*`");
+    size_t length = strlen(name);
+    while (length && strchr("*`", name[length - 1]))
+        name[--length] = '\0';
+    return length ? name : NULL;
+}
+
+/* Whether a line names all columns but those that are skipped; then takes it. */
+static bool take_names(struct layout *l, size_t line)
+{
+    size_t wanted = 0, used = 0;
+    for (size_t i = 0; i < l->width; i++)
+        wanted += !l->skipped[i];
+    if (!wanted || !split_names(l, line, wanted))
+        return false;
+    for (size_t i = 0; i < wanted && l->line[line].kind == BR_LINE_COMMENT; i++) {
+        const size_t length = strlen(l->token[i].text);
+        if (l->token[i].content == BR_NUMBER || (length && l->token[i].text[length - 1] == ':'))
+            return false;
+    }
+    for (size_t i = 0; i < l->width; i++)
+        l->fields->heading[i] = l->skipped[i] ? NULL : plain_name(l->token[used++].text, i);
+    l->fields->heading_line = l->line[line].number;
+    return l->row[line].is_used = true;
+}
+
+/* Whether the words of a line above aligned columns name them, "L2 error" as well; then takes it.
+ * Rates have no names there, as their columns begin with a gap. */
+static bool take_names_above(struct layout *l, size_t line)
+{
+    struct br_store *store = &l->fields->store;
+    const struct br_line *heading = &l->line[line];
+    const char **name = l->fields->heading;
+    struct br_span *span = br_store_take(store, l->width, sizeof *span);
+    char *room = br_store_take(store, BR_ROOM(heading->text), 1);
+    bool named = l->by >= BR_BY_WIDE_BLANKS && span && room && strstr(heading->text, "  ") &&
+                 !l->row[line].numbers;
+    for (size_t i = l->first; named && i <= l->last; i++)
+        named = !l->row[i].is_row || br_spans_widen(span, l->width, &l->line[i]);
+    const size_t gaps = find_gaps(l);
+    named = named && br_names_above(heading, span, l->skipped, l->width, room, name);
+    for (size_t i = 0; i < l->width && gaps; i++)
+        named &= !name[i] || !br_layout_is_rate(name[i]);
+    l->fields->heading_line = named ? heading->number : 0;
+    if (!named) {
+        memset(l->skipped, 0, sizeof l->skipped);
+        memset(name, 0, l->width * sizeof *name);
+    }
+    return l->row[line].is_used = named;
+}
+
+/* Whether the line above the rows names all columns but an index or rates; then takes it. Pandas
+ * has the name of an index alone below the others. */
+static bool take_short_heading(struct layout *l, size_t above)
+{
+    const struct row *r = &l->row[above];
+    if (find_gaps(l) && take_names(l, above))
+        return true;
+    memset(l->skipped, 0, sizeof l->skipped);
+    const size_t title = next_text(l, above, -1);
+    const bool is_index = l->by >= BR_BY_WIDE_BLANKS && r->count == 1 && !r->numbers &&
+                          title < l->lines && !l->row[title].numbers;
+    l->skipped[0] = true;
+    bool found = has_index(l) && take_names(l, above);
+    if (!found && is_index && take_names(l, title)) {
+        l->fields->heading[0] = r->token->text;
+        found = l->row[above].is_used = true;
+    }
+    l->skipped[0] = false;
+    return found;
+}
+
+/* Of names that repeat, "N error EOC error EOC": how many are in each of the groups; 0: none. */
+static size_t period_of(const struct layout *l, size_t groups)
+{
+    const char *const *name = l->fields->heading;
+    for (size_t p = groups > 1 ? l->width / groups : 0; p > 0; p--) {
+        bool repeats = true;
+        for (size_t i = l->width - p * groups; i + p < l->width && repeats; i++)
+            repeats = name[i] && name[i + p] && strcmp(name[i], name[i + p]) == 0;
+        if (repeats)
+            return p;
+    }
+    return 0;
+}
+
+/* How many columns a token stands above, as LaTeX has it; the token (out) becomes its text. */
+static size_t columns_of(char **text)
+{
+    size_t columns = 1;
+    int from = 0;
+    char *const at = strstr(*text, "\\multicolumn{");
+    if (!at || sscanf(at, "\\multicolumn{%4zu}{%*[^}]}{%n", &columns, &from) < 1 || !from)
+        return 1;
+    *text = at + from;
+    (*text)[strcspn(*text, "}")] = '\0';
+    return columns;
+}
+
+/* Finds the group of each column (out; NULL: none) in a line above the heading. */
+static bool find_groups(const struct layout *l, size_t line, const char **group)
+{
+    const struct row *r = &l->row[line];
+    const size_t period = period_of(l, r->count);
+    size_t column = 0;
+    if (period && !r->numbers) {
+        for (size_t i = 0; i < r->count * period; i++)
+            group[l->width - r->count * period + i] = r->token[i / period].text;
+        return true;
+    }
+    for (size_t i = 0; i < r->count && column < l->width; i++) {
+        char *text = r->token[i].text;
+        const size_t columns = columns_of(&text);
+        for (size_t j = 0; j < columns && column < l->width; j++, column++)
+            group[column] = *text ? text : column ? group[column - 1] : NULL;
+    }
+    return column == l->width;
+}
+
+/* Whether the names need those of the line above: two are the same, or all are units. */
+static bool lack_groups(const struct layout *l)
+{
+    const char *const *name = l->fields->heading;
+    bool units = true, same = false;
+    for (size_t i = 0; i < l->width; i++) {
+        units &= name[i] && strchr("[(", *name[i]);
+        for (size_t j = 0; j < i && l->width < 100; j++)
+            same |= name[i] && name[j] && strcmp(name[i], name[j]) == 0;
+    }
+    return units || same;
+}
+
+/* Puts a line of groups before the names below it: rho, and error, EOC. */
+static enum br_status join_groups(struct layout *l, size_t line)
+{
+    const char **name = l->fields->heading;
+    if (!lack_groups(l))
+        return BR_OK;
+    const char **group = br_store_take(&l->fields->store, l->width, sizeof *group);
+    if (!group)
+        return br_no_memory(l->err, "the table");
+    if (!find_groups(l, line, group))
+        return BR_OK;
+    for (size_t i = 0; i < l->width; i++) {
+        const char *own = name[i] ? name[i] : "", *above = group[i] ? group[i] : "";
+        char *joined = br_store_take(&l->fields->store, strlen(own) + strlen(above) + 2, 1);
+        if (!joined)
+            return br_no_memory(l->err, "the table");
+        sprintf(joined, "%s%s%s", above, *own && *above ? " " : "", own);
+        name[i] = *joined ? joined : NULL;
+    }
+    l->row[line].is_used = true;
+    return BR_OK;
+}
+
+/* Whether the first row is a heading of words and numbers: "p,1,2,3". */
+static bool has_names_in_row(const struct layout *l)
+{
+    bool words = false;
+    const struct row *r = &l->row[l->first];
+    for (size_t i = 0; i < l->width && l->rows > 2 && r->count == l->width; i++)
+        words |= r->token[i].content >= BR_WORD && l->has_number[i] + 1 >= l->rows;
+    return words;
+}
+
+/* Whether a line without the rows' number of names may be a title, and is no heading that lacks
+ * some. */
+static bool is_title(const struct layout *l, size_t line)
+{
+    const char *const text = l->line[line].text;
+    return l->row[line].count < 2 || strchr(":.[({=", text[strlen(text) - 1]) ||
+           (l->by >= BR_BY_WIDE_BLANKS && l->line[line].number + 1 < l->line[l->first].number);
+}
+
+static enum br_status find_heading(struct layout *l)
+{
+    const size_t above = next_text(l, l->first, -1), first = l->first;
+    for (size_t i = 0; i < l->width && l->by <= BR_BY_COLONS; i++) {
+        l->fields->heading[i] = l->row[first].token[i].name;
+        l->fields->heading_line = l->line[first].number;
+    }
+    if (l->by <= BR_BY_COLONS)
+        return BR_OK;
+    if (above < l->lines && (take_names_above(l, above) || take_names(l, above))) {
+        const size_t group = next_text(l, above, -1);
+        return group < l->lines ? join_groups(l, group) : BR_OK;
+    }
+    for (size_t i = l->first; i-- > 0;)
+        if (l->line[i].kind == BR_LINE_COMMENT && take_names(l, i))
+            return BR_OK;
+    if (above < l->lines && take_short_heading(l, above))
+        return BR_OK;
+    if (has_names_in_row(l)) {
+        l->row[first].is_row = false;
+        l->first = next_text(l, first, 1);
+        take_names(l, first);
+        return BR_OK;
+    }
+    if (above == l->lines || is_title(l, above))
+        return BR_OK;
+    if (l->row[above].numbers)
+        return br_layout_refuse_row(l, above, "first row");
+    const size_t count = l->row[above].count;
+    const size_t row = l->width > count && is_short(l, first) ? next_text(l, first, 1) : first;
+    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than the %zu fields of the heading",
+                   l->path, l->line[row].number, l->width > count ? "more" : "fewer", count);
+}
+
+enum br_status br_layout_find_kinds(struct layout *l)
+{
+    if (find_rows(l))
+        return l->err->status;
+    find_ends(l);
+    const enum br_status status = find_heading(l);
+    if (l->fields->store.failed)
+        return br_no_memory(l->err, "the table");
+    return status || check_lines(l) || check_blocks(l) ? l->err->status : BR_OK;
+}
+
+/* Names all lines that are in no row, but comments at the top. */
+void br_layout_leave_lines(const struct layout *l)
+{
+    for (size_t i = 0; i < l->lines; i++) {
+        const struct row *r = &l->row[i];
+        const bool is_comment = l->line[i].kind == BR_LINE_COMMENT;
+        if (l->line[i].kind == BR_LINE_EMPTY || r->is_used || (is_comment && i < l->first))
+            continue;
+        for (char *c = l->line[i].text; (c = strchr(c, BR_BOX_BAR));)
+            *c = '|';
+        l->fields->left[l->fields->lefts++] =
+            (struct br_left_line){l->line[i].number, l->line[i].text,
+                                  is_comment                              ? "comment"
+                                  : i < l->first                          ? "title"
+                                  : i < l->last                           ? "between rows"
+                                  : r->count == l->width && is_summary(r) ? "summary"
+                                                                          : "footer"};
+    }
+}
