@@ -166,6 +166,7 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     if (!all)
         return;
     c->factor = (struct br_estimate){exp(by->order.value), exp(by->order.low), exp(by->order.high)};
+    c->exponential = 1;
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].flag = by->point[i].flag;
         c->point[i].used = by->point[i].used;

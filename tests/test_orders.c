@@ -946,6 +946,8 @@ TEST(test_verdicts)
                       drag[] = "h,u\n1,4\n.5,2\n.25,1.5\n.125,1.375\n.0625,1.34375\n";
     static const char spectral[] = "n,l2\n2,.01562\n3,.001953\n4,2.441e-4\n5,3.052e-5\n"
                                    "6,3.815e-6\n7,4.768e-7\n";
+    /* against a reference of a size near the finest */
+    static const char rises[] = "h,l2\n.1,1\n.05,.57196\n.025,.26775\n.0125,.093036\n";
     static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n",
                       two[] = "h,Eh,eH\n1,4,4\n.5,1,1\n.25,.25,.25\n.125,.0625,.0625\n";
     static const char cases[] = "m,n,l2\nA,1,1\nA,2,.25\nA,4,.0625\nA,8,.015625\nB,1,1\nB,2,.5\n"
@@ -989,6 +991,8 @@ TEST(test_verdicts)
         {spectral, NULL, "l2: h exponential 9 +- 0.5", BR_FAIL, "one more of 1/h divides"},
         {spectral, NULL, "l2: h 4 +- 0.5", BR_FAIL, "the errors fall exponentially, by no order"},
         {line, NULL, "l2: h exponential 8 +- 0.5", BR_FAIL, "their order is 2.00"},
+        {rises, NULL, "l2: h 1 +- 0.1", BR_INCONCLUSIVE, "may fall exponentially, with a"},
+        {rises, NULL, "exponential >= 1.01", BR_INCONCLUSIVE, "exponentially, with a probability"},
         {drag, "u", "u: h 2 +- 0.1", BR_PASS, ""},
         {line, NULL, "2", BR_PASS, ""},
         {line, NULL, "L2 = 2", BR_PASS, ""},
