@@ -935,6 +935,27 @@ TEST(test_limit_of_a_grid)
     assert_true(isnan(found.orders.of[0].limit.value.value));
 }
 
+static double weak_singularity(double h, double k)
+{
+    return pow(h / 8, 2) * log(8 / h) + 0.2 * pow(k / 8, 1.5);
+}
+
+/* Three sizes distinguish no law, and wide intervals of two lines agree about any order. */
+TEST(test_three_sizes_of_a_logarithm)
+{
+    static const char six_digits[] =
+        "h,k,l2\n12,4,0.435642\n12,2,0.299113\n12,1,0.250843\n6,4,0.312686\n6,2,0.176157\n"
+        "6,1,0.127887\n3,4,0.254905\n3,2,0.118377\n3,1,0.070107\n"; /* h^1.5 log(1/h) + k^1.5 */
+    find(grid_of(3, 3, weak_singularity), NULL);
+    const struct br_estimate *order = &found.orders.of[0].answer[BR_AXIS_SPACE].order;
+    if (!(order->low <= 2 && order->high >= 1.995))
+        fail_msg("the order is 2, found %g to %g", order->low, order->high);
+    find(six_digits, NULL);
+    order = &found.orders.of[0].answer[BR_AXIS_SPACE].order;
+    if (br_order_determined(order) && order->high < 1.5)
+        fail_msg("the order is 1.5, found %g to %g", order->low, order->high);
+}
+
 TEST(test_verdicts)
 {
     enum { REFUSED_ONE = -1 };
