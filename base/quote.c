@@ -2,6 +2,7 @@
 #include "base/quote.h"
 
 #include <ctype.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,17 +72,6 @@ const struct br_quoting br_for_shell = {
     .bare = "",
     .rough = " \t\r\n'\"\\$*?;&|<>()[]{}#~`!^",
     .nothing = true,
-    .stead = {{'\'', "'\\''"}},
-};
-
-const struct br_quoting br_for_completion = {
-    .around = "'",
-    .stead = {{'\'', "'\\''"}, {'\\', " "}},
-};
-
-const struct br_quoting br_for_zsh = {
-    .around = "",
-    .escaped = "\\]",
     .stead = {{'\'', "'\\''"}},
 };
 
@@ -195,6 +185,33 @@ void br_quote(FILE *out, const struct br_quoting *target, const char *text)
         fputs(piece, out);
     }
     fputs(quotes(target, text), out);
+}
+
+void br_print(FILE *out, const struct br_quoting *target, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    for (const char *c = format; *c;) {
+        char conversion[16];
+        const size_t plain = strcspn(c, "%");
+        fwrite(c, 1, plain, out);
+        c += plain;
+        const size_t size = *c ? 2 + strspn(c + 1, "+-.0123456789z") : 0;
+        snprintf(conversion, sizeof conversion, "%.*s", (int)size, c);
+        c += size;
+        if (size && c[-1] == 's') {
+            const char *text = va_arg(arguments, const char *);
+            br_quote(out, target, text ? text : "");
+        } else if (size && c[-1] == 'd')
+            fprintf(out, conversion, va_arg(arguments, int));
+        else if (size && c[-1] == 'u')
+            fprintf(out, conversion, va_arg(arguments, size_t));
+        else if (size && c[-1] != '%')
+            fprintf(out, conversion, va_arg(arguments, double));
+        else if (size)
+            fputc('%', out);
+    }
+    va_end(arguments);
 }
 
 char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, const char *text)

@@ -40,14 +40,17 @@ extern const struct br_quoting br_for_xml;      /* text, or an attribute's value
 extern const struct br_quoting br_for_csv;      /* a field (RFC 4180), never a formula */
 extern const struct br_quoting br_for_github;   /* the message of a GitHub annotation */
 extern const struct br_quoting br_for_github_property;
-extern const struct br_quoting br_for_shell;      /* a word */
-extern const struct br_quoting br_for_completion; /* a string of any shell, without backslashes */
-extern const struct br_quoting br_for_zsh;        /* between [ and ] of a string of _arguments */
+extern const struct br_quoting br_for_shell; /* a word */
 
 /* Writes a text for a target. */
 void br_quote(FILE *out, const struct br_quoting *target, const char *text);
 
-/* The same into a buffer, which it returns. Characters that do not fit are left out as a whole. */
+/* printf whose texts are written for a target (NULL: an empty one): of %s, %d, %zu, %%, numbers. */
+__attribute__((format(printf, 3, 4))) void br_print(FILE *out, const struct br_quoting *target,
+                                                    const char *format, ...);
+
+/* The same as br_quote into a buffer, which it returns. Characters that do not fit are left out as
+ * a whole. */
 char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, const char *text);
 
 /* Writes a comment of a gnuplot script or a data file, and the end of its line. */

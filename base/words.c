@@ -138,8 +138,9 @@ enum { MOST = 1024 };
 
 const char *br_read_number(const char *text, double *value)
 {
-    if (!isdigit((unsigned char)*text) && *text != '.' && *text != '-' && *text != '+')
-        return NULL; /* strtod would take "nan", "inf" and leading blanks */
+    const char *digits = text + (*text == '-' || *text == '+');
+    if ((!isdigit((unsigned char)*digits) && *digits != '.') || strncasecmp(digits, "0x", 2) == 0)
+        return NULL; /* strtod would take "nan", "inf", leading blanks and hexadecimal numbers */
     char *end;
     errno = 0;
     *value = strtod(text, &end);

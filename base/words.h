@@ -76,7 +76,7 @@ bool br_lists(const char *list, const char *name);
 /* Lists of numbers on the command line and in scenes: "100,200,400", with or without blanks after
  * the commas. */
 
-/* Reads a finite number at the start of text; returns what follows, or NULL. */
+/* Reads a finite decimal number at the start of text; returns what follows, or NULL. */
 const char *br_read_number(const char *text, double *value);
 
 /* For qsort: numbers in ascending order. */

@@ -158,11 +158,8 @@ static int run_all(int argc, const char **argv)
         fprintf(stderr, "beamrate: interrupted after everything was written\n");
         br_signals_raise_again();
     }
-    if (status) {
-        fputs("beamrate: ", stderr);
-        br_quote(stderr, &br_for_text, err.message); /* it may quote a file */
-        fputc('\n', stderr);
-    }
+    if (status) /* the message may quote a file */
+        br_print(stderr, &br_for_text, "beamrate: %s\n", err.message);
     return br_status_exit_code(status);
 }
 

@@ -41,8 +41,8 @@ static const struct br_command br_command_trade = {
     .arguments = "PROGRAM...",
     .title = "what a digit costs: errors against costs of several programs",
     .about = BR_TRADE_ABOUT,
-    .example = {"beamrate-orders trade fd.yaml fem.yaml --trust",
-                "beamrate-orders trade fd.csv spectral.csv --cost dofs"},
+    .example = {"beamrate-orders trade fd.csv sparse4.csv",
+                "beamrate-orders trade fd.yaml p1.yaml p2.yaml --trust --out trade"},
     .most_words = BR_MOST_WORDS,
     .run = trade,
 };

@@ -5,7 +5,6 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -58,8 +57,6 @@ void br_signals_raise_again(void)
 
 /* ---- progress ---- */
 
-enum { BAR = 40, TEXT = 38 /* beside the bar and the name, at most */ };
-
 /* After less time, s, or less of the work, the time left cannot be estimated. */
 static const double least_elapsed = 1, least_fraction = 0.05;
 
@@ -73,20 +70,10 @@ static struct progress {
     int tenths;         /* of the work, at the last printed line */
 } progress;
 
-/* The bar fills what the text leaves of the terminal's width; a narrow terminal gets no bar. */
-static void draw_bar(void)
+/* percent: of the work. A terminal has one line, which is written over. */
+static void print_share(double percent)
 {
-    char bar[BAR + 1];
-    struct winsize size;
-    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    const int room = known ? (int)size.ws_col - TEXT - (int)strlen(progress.what) : BAR;
-    const int width = room < BAR ? room : BAR;
-    int i = 0;
-    for (; i < width && width >= 5; i++)
-        bar[i] = i < progress.fraction * width ? '#' : '.';
-    bar[i] = '\0';
-    fprintf(stderr, "\r%s %s%s%s%.0f %%, ", progress.what, i ? "[" : "", bar, i ? "] " : "",
-            100 * progress.fraction);
+    fprintf(stderr, "%s%s: %.0f %%, ", progress.terminal ? "\r" : "", progress.what, percent);
 }
 
 /* Early in the work no time is printed: many tasks start at once, so an estimate would be poor. */
@@ -107,21 +94,16 @@ static void show(void *self, double fraction)
     pthread_mutex_lock(&lock);
     fraction = ((double)progress.part + fraction) / (double)progress.parts;
     progress.fraction = fraction;
-    const double t = br_seconds(), elapsed = t - progress.start;
-    if (progress.terminal && t - progress.last >= 0.1) {
-        progress.last = t;
-        draw_bar();
-        print_left(elapsed, fraction);
-        fprintf(stderr, " \033[K");
-        fflush(stderr);
-    }
+    const double t = br_seconds(), waited = t - progress.last;
     const int tenths = (int)(10 * fraction);
-    if (!progress.terminal && tenths > progress.tenths && t - progress.last >= 1) {
+    const bool due = progress.terminal ? waited >= 0.1 : tenths > progress.tenths && waited >= 1;
+    if (due) {
         progress.last = t;
         progress.tenths = tenths;
-        fprintf(stderr, "%s: %d %%, ", progress.what, 10 * tenths);
-        print_left(elapsed, fraction);
-        fputc('\n', stderr);
+        print_share(progress.terminal ? 100 * fraction : 10 * tenths);
+        print_left(t - progress.start, fraction);
+        fputs(progress.terminal ? " \033[K" : "\n", stderr);
+        fflush(stderr);
     }
     pthread_mutex_unlock(&lock);
 }
@@ -147,7 +129,7 @@ static void show_waiting(void *self, double share)
     if (t - progress.last >= (progress.terminal ? 0.1 : 1)) {
         progress.last = t;
         if (progress.terminal)
-            draw_bar();
+            print_share(100 * progress.fraction);
         print_wait(share);
         fflush(stderr);
     }

@@ -34,10 +34,8 @@ enum br_status br_remember_command_line(int argc, const char **argv, struct br_e
     free(command_line);
     command_line = NULL;
     FILE *text = br_text_open(&command_line, &size);
-    for (int i = 0; text && i < argc; i++) {
-        fputs(i ? " " : "", text);
-        br_quote(text, &br_for_shell, argv[i]);
-    }
+    for (int i = 0; text && i < argc; i++)
+        br_print(text, &br_for_shell, i ? " %s" : "%s", argv[i]);
     return text && fclose(text) == 0 ? BR_OK : br_no_memory(err, "the command line");
 }
 

@@ -76,11 +76,11 @@ static enum br_status picture_failed(const struct br_error *why, const char *wha
 {
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: the picture did not fail by itself */
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    fprintf(stderr, "beamrate: warning: ");
-    br_quote(stderr, &br_for_text, what);
-    fprintf(stderr, " is not drawn: ");
-    br_quote(stderr, &br_for_text, why->message);
-    fprintf(stderr, "; its script (*.gp), its data and all tables are kept\n");
+    br_print(
+        stderr, &br_for_text,
+        "beamrate: warning: %s is not drawn: %s; its script (*.gp), its data and all tables are "
+        "kept\n",
+        what, why->message);
     return BR_OK;
 }
 
@@ -219,9 +219,7 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
         return status;
     status = br_session_write(s, br_document_formats, err);
     if (!status && !s->quiet) {
-        fputs("Written to ", stdout);
-        br_quote(stdout, &br_for_text, s->output.folder);
-        fputc('/', stdout);
+        br_print(stdout, &br_for_text, "Written to %s/", s->output.folder);
         if (s->output.replaced || s->output.removed)
             printf("; of the files of an earlier run there %zu are replaced, %zu removed",
                    s->output.replaced, s->output.removed);

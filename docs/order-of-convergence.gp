@@ -21,7 +21,7 @@ off(j, n) = (x = acos(slope(j, n)/pi)/pi, f(x) - line(x, n*1.0))
 largest(n) = (m = 0, sum [j = 0:n/2 - 1] (m = off(j, n) > m ? off(j, n) : m, 0), m)
 set title 'half the size, a quarter of the error: order 2'
 set logscale xy
-set xrange [0.02:0.35]
+set xrange [0.014:0.35]
 set yrange [3e-4:0.2]
 set format x '%g'
 set format y '10^{%T}'
@@ -29,5 +29,5 @@ set xlabel 'size of a piece'
 set xtics (0.03125, 0.0625, 0.125, 0.25)
 array n[4] = [4, 8, 16, 32]
 plot n using (1.0/n[$1]):(largest(n[$1])) with linespoints lw 2 pt 7 ps 1.4 lc rgb '#0072b2', \
-     n using (1.0/n[$1]):(largest(n[$1])):(sprintf('%.2g', largest(n[$1]))) with labels offset -2.5,0.6
+     n using (1.0/n[$1]):(largest(n[$1])):(sprintf('%.2g', largest(n[$1]))) with labels right offset -0.9,0.5
 unset multiplot

@@ -33,7 +33,7 @@ struct br_figure br_check_draw(const struct br_check *check, size_t count)
     for (size_t i = 0; i < count; i++)
         orders += check[i].count;
     if (orders)
-        br_panel_add(&f, "order, with its 95 % interval", "")->rows = true;
+        br_panel_add(&f, false, "order, with its 95 % interval", "%s", "")->rows = true;
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         if (br_check_tally(check, count, (enum br_verdict)v)) {
             marks[v] = br_series_add(&f, BR_PEN_MARKS, "%s", br_verdict_names[v]);
@@ -43,14 +43,14 @@ struct br_figure br_check_draw(const struct br_check *check, size_t count)
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < check[i].count; j++) {
             const struct br_case *c = &check[i].cases[j];
-            char label[120] = "";
+            char label[120] = "", name[BR_SHORT_NAME], measure[BR_SHORT_NAME];
             rows += orders <= ROWS || j == 0;
             left += rows > MOST;
             if (orders <= ROWS)
-                BR_SAY(label, "%.40s %s %.30s %.20s", check[i].name, br_verify_names[c->kind],
-                       c->measure, c->part);
+                BR_SAY(label, "%s %s %s %.20s", br_short_name(check[i].name, name),
+                       br_verify_names[c->kind], br_short_name(c->measure, measure), c->part);
             else if (j == 0)
-                BR_SAY(label, "%.60s", check[i].name);
+                BR_SAY(label, "%s", br_short_name(check[i].name, name));
             if (rows <= MOST)
                 add_order(&f, c, -(double)rows, label, marks[c->verdict], line[c->verdict]);
         }

@@ -7,17 +7,42 @@
 
 #include "base/quote.h"
 
+char *br_short_name(const char *name, char text[BR_SHORT_NAME])
+{
+    const bool whole = strlen(name) < BR_SHORT_NAME;
+    int most = BR_SHORT_NAME - 4;
+    while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
+        most--;
+    snprintf(text, BR_SHORT_NAME, "%.*s%s", whole ? BR_SHORT_NAME : most, name, whole ? "" : "...");
+    return text;
+}
+
+void br_label_set(char label[96], const char *name, const char *unit)
+{
+    char text[BR_SHORT_NAME], markup[80];
+    if (unit && *unit)
+        snprintf(label, 96, "%.60s (%.32s)", name,
+                 br_quoted(markup, sizeof markup, &br_for_markup, br_short_name(unit, text)));
+    else
+        snprintf(label, 96, "%s", name);
+}
+
 static struct br_panel *last_panel(struct br_figure *f)
 {
     return &f->panel[f->panels - 1];
 }
 
-struct br_panel *br_panel_add(struct br_figure *f, const char *x_label, const char *y_label)
+struct br_panel *br_panel_add(struct br_figure *f, bool logarithmic, const char *x_label,
+                              const char *y_label, ...)
 {
-    f->panels++;
-    BR_SAY(last_panel(f)->x_label, "%s", x_label);
-    BR_SAY(last_panel(f)->y_label, "%s", y_label);
-    return last_panel(f);
+    struct br_panel *p = &f->panel[f->panels++];
+    va_list arguments;
+    BR_SAY(p->x_label, "%s", x_label);
+    va_start(arguments, y_label);
+    vsnprintf(p->y_label, sizeof p->y_label, y_label, arguments);
+    va_end(arguments);
+    p->log_x = p->log_y = logarithmic;
+    return p;
 }
 
 /* Whether series of the two pens must differ in style. */
@@ -69,21 +94,6 @@ void br_point_add(struct br_series *s, double x, double y, const char *flag)
     s->failed = !br_grow(&s->point, s->count, &s->room, sizeof *s->point);
     if (!s->failed)
         s->point[s->count++] = (struct br_figure_point){x, y, flag};
-}
-
-struct br_fitted_series br_fitted_series_add(struct br_figure *f, const char *title)
-{
-    return (struct br_fitted_series){.area = br_series_add(f, BR_PEN_AREA, "%s", title),
-                                     .line = br_series_add(f, BR_PEN_LINE, "%s", title),
-                                     .marks = br_series_add(f, BR_PEN_MARKS, "%s", title)};
-}
-
-void br_fitted_point_add(const struct br_fitted_series *s, double x, double y, const char *flag,
-                         double fit, double low)
-{
-    br_point_add(s->marks, x, y, flag);
-    br_point_add(s->line, x, fit, NULL);
-    br_point_add(s->area, x, low, NULL);
 }
 
 static int compare(const void *a, const void *b)

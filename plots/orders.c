@@ -9,21 +9,12 @@
 #include "orders/orders.h"
 #include "plots/pictures.h"
 
-/* A foreign name, shortened by whole characters; plain, or as markup. */
-enum { NAME = 40, MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
-static const char *shortened(const char *name, char *text)
-{
-    const bool whole = strlen(name) < NAME;
-    int most = NAME - 4;
-    while (!whole && most > 0 && ((unsigned char)name[most] & 0xc0) == 0x80)
-        most--;
-    snprintf(text, NAME, "%.*s%s", whole ? NAME : most, name, whole ? "" : "...");
-    return text;
-}
+enum { MARKUP = 90, TITLE = sizeof((struct br_series *)0)->title };
 
+/* A foreign name as markup. */
 static const char *name_of(const char *name, char markup[MARKUP])
 {
-    return br_quoted(markup, MARKUP, &br_for_markup, shortened(name, (char[NAME]){0}));
+    return br_quoted(markup, MARKUP, &br_for_markup, br_short_name(name, (char[BR_SHORT_NAME]){0}));
 }
 
 /* "2.00 [1.99, 2.01]": what is found of the order along an axis. */
@@ -61,7 +52,7 @@ static const char *title_of(const struct br_orders *o, const struct br_quantity_
     char text[96];
     const char *between = ": ";
     const bool both = br_orders_finest(of, BR_AXIS_SPACE) && br_orders_finest(of, BR_AXIS_TIME);
-    shortened(br_quantity_of(o, of)->name, title);
+    br_short_name(br_quantity_of(o, of)->name, title);
     if (br_quantity_of(o, of)->is_value) {
         say_value(of->lines == 1 ? &of->line->limits.gci : NULL, &of->limit, strcat(title, ": "),
                   TITLE);
@@ -91,6 +82,24 @@ static void add_by_hand(struct br_series *marks, const struct br_orders *o,
     }
 }
 
+struct br_series *br_points_draw(struct br_figure *f, const char *title,
+                                 const struct br_point *point, size_t count, bool fitted)
+{
+    struct br_series *area = fitted ? br_series_add(f, BR_PEN_AREA, "%s", title) : NULL;
+    struct br_series *line = fitted ? br_series_add(f, BR_PEN_LINE, "%s", title) : NULL;
+    struct br_series *marks = br_series_add(f, fitted ? BR_PEN_MARKS : BR_PEN_CURVE, "%s", title);
+    for (const struct br_point *p = point; p < point + count; p++)
+        br_point_add(marks, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
+                     p->flag ? br_flag_name(p->flag) : NULL);
+    for (size_t i = 0; i < 2 * count && fitted; i++) { /* the band goes back along its upper end */
+        const struct br_point *p = &point[i < count ? i : 2 * count - 1 - i];
+        if (i < count)
+            br_point_add(line, p->z, p->fit.value, NULL);
+        br_point_add(area, p->z, i < count ? p->fit.low : p->fit.high, NULL);
+    }
+    return marks;
+}
+
 /* The errors, with the line of their order and its band; those of a joint fit, which is no line,
  * are joined. Returns the errors. */
 static const struct br_series *add_line(struct br_figure *f, const struct br_orders *o,
@@ -101,24 +110,10 @@ static const struct br_series *add_line(struct br_figure *f, const struct br_ord
     const struct br_case *c = &line->observed;
     const bool fitted = c->points && isfinite(c->point[0].fit.value);
     br_quoted(name, sizeof name, &br_for_markup, title_of(o, of, title));
-    struct br_fitted_series s = {0};
-    if (fitted)
-        s = br_fitted_series_add(f, name);
-    else
-        s.marks = br_series_add(f, BR_PEN_CURVE, "%s", name);
-    for (const struct br_point *p = c->point; p < c->point + c->points; p++) {
-        const double error = p->flag == BR_FLAG_FAILED ? (double)NAN : p->error;
-        const char *flag = p->flag ? br_flag_name(p->flag) : NULL;
-        if (fitted)
-            br_fitted_point_add(&s, p->z, error, flag, p->fit.value, p->fit.low);
-        else
-            br_point_add(s.marks, p->z, error, flag);
-    }
-    for (size_t i = c->points; i-- > 0 && fitted;)
-        br_point_add(s.area, c->point[i].z, c->point[i].fit.high, NULL);
-    add_by_hand(s.marks, o, of, line);
-    br_series_sort(s.marks);
-    return s.marks;
+    struct br_series *marks = br_points_draw(f, name, c->point, c->points, fitted);
+    add_by_hand(marks, o, of, line);
+    br_series_sort(marks);
+    return marks;
 }
 
 /* "mesh size h = 1/n"; a size has the unit of the source, too. */
@@ -126,10 +121,10 @@ static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char 
 {
     const struct br_resolution_column *column = numbers->column[axis];
     const char *unit = column->is_size ? numbers->unit[axis] : NULL;
-    char states[MARKUP], quoted[MARKUP];
+    char states[MARKUP], name[MARKUP + 16];
     name_of(column->is_degree ? "1/(degree + 1)" : column->states, states);
-    snprintf(label, 96, "%s %.40s%s%.40s", axis == BR_AXIS_SPACE ? "mesh size" : "time step",
-             states, unit ? ", " : "", unit ? name_of(unit, quoted) : "");
+    snprintf(name, sizeof name, "%s %s", axis == BR_AXIS_SPACE ? "mesh size" : "time step", states);
+    br_label_set(label, name, unit);
 }
 
 /* The order of a triangle: a half or whole one where that is near. */
@@ -151,14 +146,13 @@ static void add_errors(struct br_figure *f, const struct br_orders *o, enum br_a
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_line *finest = br_orders_finest(&o->of[i], axis);
         const char *unit = o->numbers->quantity[o->of[i].quantity].unit;
-        char x[96], quoted[MARKUP];
+        char x[96];
         if (!finest || br_quantity_of(o, &o->of[i])->is_value)
             continue;
         if (!p) {
             name_axis(o->numbers, axis, x);
-            p = br_panel_add(f, x, "");
-            p->log_x = p->log_y = true;
-            BR_SAY(p->y_label, "error%s%s", unit ? ", " : "", unit ? name_of(unit, quoted) : "");
+            p = br_panel_add(f, true, x, "%s", "");
+            br_label_set(p->y_label, "error", unit);
             common = unit;
         }
         if (!common || !unit || strcmp(common, unit) != 0)
@@ -217,12 +211,12 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
     const struct br_estimate *limit = &line->limits.limit.value;
     const size_t rows = line->observed.points + 1;
     const struct br_numbers_row *row = o->numbers->row, *finest = NULL;
-    char name[MARKUP], unit[MARKUP], x[96];
+    char name[MARKUP], x[96];
     double end = 0;
     name_of(q->name, name);
     name_axis(o->numbers, line->axis, x);
-    struct br_panel *p = br_panel_add(f, x, "");
-    BR_SAY(p->y_label, "%s%s%s", name, q->unit ? ", " : "", q->unit ? name_of(q->unit, unit) : "");
+    struct br_panel *p = br_panel_add(f, false, x, "%s", "");
+    br_label_set(p->y_label, name, q->unit);
     if (*line->at)
         BR_SAY(p->title, "at %s: ", line->at);
     say_value(g, &line->limits.limit, p->title, sizeof p->title);
@@ -257,19 +251,22 @@ static void add_value(struct br_figure *f, const struct br_orders *o,
 /* "Order of l2: 2.00 [1.99, 2.01]; h1: 1.000 [0.999, 1.001]", "drag: p = 1.91, ...". */
 static void say_title(const struct br_orders *o, char *title, size_t size)
 {
-    enum { MOST = 2 }; /* quantities */
+    enum { MOST = 2, LETTERS = 80 }; /* quantities; beyond these the title's letters are small */
     char text[TITLE];
-    size_t said = 0;
-    for (size_t i = 0; i < o->count && said < MOST; i++) {
+    size_t said = 0, left = 0;
+    for (size_t i = 0; i < o->count; i++) {
         const struct br_quantity_orders *of = &o->of[i];
-        const bool value = br_quantity_of(o, of)->is_value;
-        const char *before = said ? "; " : value ? "" : "Order of ";
+        const char *before = br_quantity_of(o, of)->is_value ? "" : "Order of ";
         if (!of->lines)
             continue;
-        br_append(title, size, "%s%s", before, title_of(o, of, text));
-        said++;
+        title_of(o, of, text);
+        if (said == MOST || (said && strlen(title) + strlen(text) > LETTERS)) {
+            left++;
+            continue;
+        }
+        br_append(title, size, "%s%s", said++ ? "; " : before, text);
     }
-    br_append(title, size, "%s", o->count > MOST ? "; ..." : "");
+    br_append(title, size, "%s", left ? "; ..." : "");
 }
 
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)

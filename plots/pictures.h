@@ -12,6 +12,7 @@
 
 struct br_orders;
 struct br_check;
+struct br_point;
 struct br_work_precision;
 
 /* ---- figure.c ---- */
@@ -58,7 +59,7 @@ struct br_figure_point {
 /* Series of one pen and title have one style in all panels, and one entry in the key. */
 struct br_series {
     char title[160]; /* "": not in the key */
-    char end[80];    /* a text beside the last point; of a panel with rows, left of its axis */
+    char end[100];   /* a text beside the last point; of a panel with rows, left of its axis */
     bool end_left;   /* it stands left of the point */
     bool stairs;     /* a line that keeps y until the next x, as a Pareto front does */
     enum br_pen pen;
@@ -100,23 +101,25 @@ struct br_figure {
 /* Fills a text of a figure. */
 #define BR_SAY(text, ...) snprintf((text), sizeof(text), __VA_ARGS__)
 
-/* Adds a panel; there must be room. */
-struct br_panel *br_panel_add(struct br_figure *figure, const char *x_label, const char *y_label);
+/* A foreign name, shortened by whole characters, plain; returns text (out). */
+enum { BR_SHORT_NAME = 40 };
+char *br_short_name(const char *name, char text[BR_SHORT_NAME]);
+
+/* Sets a label: "error (m)" of a name in markup and a plain unit; NULL or "": none. */
+void br_label_set(char label[96], const char *name, const char *unit);
+
+/* Adds a panel, with logarithmic axes or with linear ones; there must be room. The label of y is a
+ * format. */
+__attribute__((format(printf, 4, 5))) struct br_panel *br_panel_add(struct br_figure *figure,
+                                                                    bool logarithmic,
+                                                                    const char *x_label,
+                                                                    const char *y_label, ...);
 
 /* Adds a series, to be filled, to the last panel. The title is a format. */
 __attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_figure *figure,
                                                                       enum br_pen pen,
                                                                       const char *title, ...);
 void br_point_add(struct br_series *series, double x, double y, const char *flag);
-
-/* Marks, a line that was fitted to them, and its band, to the last panel. Add each point, and then
- * the upper end of the band, from the last point to the first. Numbers may be NaN. */
-struct br_fitted_series {
-    struct br_series *area, *line, *marks;
-};
-struct br_fitted_series br_fitted_series_add(struct br_figure *figure, const char *title);
-void br_fitted_point_add(const struct br_fitted_series *series, double x, double y,
-                         const char *flag, double fit, double low);
 
 /* Sorts the points by x, then by y; stairs: a Pareto front, of the points whose y falls. */
 void br_series_sort(struct br_series *series);
@@ -159,6 +162,11 @@ void br_figure_write_script(FILE *out, const struct br_figure *figure);
 /* A panel over the size of elements, and one over that of steps. Each quantity has a line, at the
  * finest size of the other kind. */
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
+
+/* Adds errors over sizes to the last panel: marks, the line that was fitted to them and its band;
+ * or joined marks where none was fitted. Returns the marks. */
+struct br_series *br_points_draw(struct br_figure *figure, const char *title,
+                                 const struct br_point *point, size_t count, bool fitted);
 
 /* ---- work.c: errors over costs of several programs ---- */
 

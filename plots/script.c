@@ -96,8 +96,7 @@ static void add_entry(struct key *key, const char *title, const char *style,
         fputs(style, key->out);
     else
         write_pen(key->out, series);
-    fputs(" title ", key->out);
-    br_quote(key->out, &br_for_gnuplot, title);
+    br_print(key->out, &br_for_gnuplot, " title %s", title);
 }
 
 /* Adds the series with a title, one of BR_PEN_OTHERS, and the meaning of a hollow mark. */
@@ -157,10 +156,9 @@ static void write_titles(FILE *out, const struct br_figure *f, const struct page
         const char *line = i ? f->note[i - 1] : f->title;
         if (!*line)
             continue;
-        fputs("set label ", out);
-        br_quote(out, &br_for_gnuplot, line);
-        fprintf(out, " at screen %.4f,%.4f left noenhanced font ',%d'\n", 30 / l->width,
-                y / l->height, letters_of(i ? SMALL : FONT + 2, l->width, line));
+        br_print(out, &br_for_gnuplot,
+                 "set label %s at screen %.4f,%.4f left noenhanced font ',%d'\n", line,
+                 30 / l->width, y / l->height, letters_of(i ? SMALL : FONT + 2, l->width, line));
         y -= LINE - 2;
     }
 }
@@ -176,11 +174,9 @@ static void write_head(FILE *out, const struct br_figure *f)
             "# Draws %s.svg, .png and, where gnuplot can, .pdf from %s.dat;\n"
             "# edit it, and draw again, in this folder, with\n"
             "#     gnuplot %s.gp\n\n"
-            "set encoding utf8\n"
-            "stem = ",
+            "set encoding utf8\n",
             name, name, name);
-    br_quote(out, &br_for_gnuplot, f->stem);
-    fputs("\ndata = stem.'.dat'\n", out);
+    br_print(out, &br_for_gnuplot, "stem = %s\ndata = stem.'.dat'\n", f->stem);
 }
 
 /* Writes the loop over the three terminals, which scale marks and ticks differently. Marks shrink
@@ -260,8 +256,8 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
     if (!logarithmic) {
         const int digits = digits_of(r);
         fprintf(out,
-                digits > 6 ? "set %ctics nomirror autofreq; set format %c '%%.%dg'\n"
-                           : "set %ctics nomirror autofreq; set format %c '%%g'\n",
+                digits > 6 ? "set %ctics nomirror autofreq; set format %c '%%.%dh'\n"
+                           : "set %ctics nomirror autofreq; set format %c '%%h'\n",
                 axis, axis, digits);
         return;
     }
@@ -273,8 +269,8 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
     fprintf(out, "set logscale %c; set %ctics nomirror 1e%g,1e%g; set format %c '%s'\n", axis, axis,
             step * floor(log10(r.low) / step), step, axis, plain ? "%g" : "10^{%L}");
     static const char *const more[] = {
-        "(sprintf('10^{%d}', p) 10.0**p, sprintf('2·10^{%d}', p) 2*10.0**p, "
-        "sprintf('5·10^{%d}', p) 5*10.0**p)",
+        "(sprintf('10^{%d}', p) 10.0**p, sprintf('2×10^{%d}', p) 2*10.0**p, "
+        "sprintf('5×10^{%d}', p) 5*10.0**p)",
         "(sprintf('%g', 2*10.0**p) 2*10.0**p, sprintf('%g', 5*10.0**p) 5*10.0**p)"};
     if (decades(r) < 2)
         fprintf(out, "set for [p=%d:%d] %ctics add %s\n", (int)floor(log10(r.low)),
@@ -303,14 +299,6 @@ static void write_top(FILE *out, const struct br_panel *p, struct br_range x, do
         last = fits ? at->x : last;
     }
     fprintf(out, ")\nset x2label '%s' font ',%d'\n", p->top_label, SMALL);
-}
-
-/* room: the length of the text's line, pixels. */
-static void write_text(FILE *out, const char *what, const char *text, double room)
-{
-    fprintf(out, "set %s ", what);
-    br_quote(out, &br_for_gnuplot, text);
-    fprintf(out, " font ',%d'\n", letters_of(FONT, room, text));
 }
 
 /* ---- the script: what is plotted ---- */
@@ -366,14 +354,14 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
 static void write_ends(FILE *out, const struct br_panel *p, double width, double row)
 {
     const double half = fmin(0.3, 12 / row); /* of a box */
-    size_t longest = 0;
-    for (size_t j = 0; j < p->count; j++) {
-        const size_t length = strlen(p->series[j]->end);
-        longest = length > longest ? length : longest;
-    }
+    const char *longest = "";
+    for (size_t j = 0; j < p->count; j++)
+        if (strlen(p->series[j]->end) > strlen(longest))
+            longest = p->series[j]->end;
+    const int letters = letters_of(SMALL, 0.6 * width, longest);
     if (p->rows)
         fprintf(out, "unset ytics; set lmargin at screen %.4f\n",
-                (40 + LETTER * (double)longest) / width);
+                (40 + LETTER * (double)letters / SMALL * (double)strlen(longest)) / width);
     for (size_t j = 0; j < p->count; j++) {
         const struct br_series *s = p->series[j];
         if (!s->count)
@@ -386,10 +374,10 @@ static void write_ends(FILE *out, const struct br_panel *p, double width, double
                     s->point->x, last->y - half, last->x, last->y + half);
         if (!s->end[0])
             continue;
-        fputs("set label ", out);
-        br_quote(out, &br_for_gnuplot, s->end);
+        br_print(out, &br_for_gnuplot, "set label %s", s->end);
         if (p->rows)
-            fprintf(out, " at graph 0, first %.9g right offset -0.6,0\n", last->y);
+            fprintf(out, " at graph 0, first %.9g right offset -0.6,0 font ',%d'\n", last->y,
+                    letters);
         else
             fprintf(out, " at %.9g,%.9g %s offset %s0.5,0\n", last->x, last->y,
                     s->end_left ? "right" : "left", s->end_left ? "-" : "");
@@ -409,9 +397,11 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
             width / l->width, height / l->height);
     if (i == 0)
         write_titles(out, f, l);
-    write_text(out, "title", p->title, width - 60);
-    write_text(out, "xlabel", p->x_label, width - 60);
-    write_text(out, "ylabel", p->y_label, height);
+    br_print(out, &br_for_gnuplot,
+             "set title %s font ',%d'\nset xlabel %s font ',%d'\nset ylabel %s font ',%d'\n",
+             p->title, letters_of(FONT, width - 60, p->title), p->x_label,
+             letters_of(FONT, width - 60, p->x_label), p->y_label,
+             letters_of(FONT, height, p->y_label));
     write_axis(out, 'x', x, p->log_x, 0.75 * width);
     write_axis(out, 'y', y, p->log_y, 0.7 * height);
     write_top(out, p, x, 0.75 * width / decades(x));

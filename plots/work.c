@@ -17,14 +17,11 @@ static void add_point(struct br_series *s, const struct br_work_point *p)
  * each program's own best. */
 static void add_work(struct br_figure *f, const struct br_work_precision *w)
 {
-    char text[MARKUP];
-    struct br_panel *panel = br_panel_add(f, "", "");
-    BR_SAY(panel->x_label, "%.60s%s%s", br_quoted(text, MARKUP, &br_for_markup, w->cost),
-           *w->cost_unit ? ", " : "", w->cost_unit);
-    panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "error %.50s%s%.20s",
-           br_quoted(text, MARKUP, &br_for_markup, w->quantity), w->unit ? ", " : "",
-           w->unit ? w->unit : "");
+    char text[MARKUP], error[MARKUP + 8];
+    struct br_panel *panel = br_panel_add(f, true, "", "%s", "");
+    br_label_set(panel->x_label, br_quoted(text, MARKUP, &br_for_markup, w->cost), w->cost_unit);
+    snprintf(error, sizeof error, "error %s", br_quoted(text, MARKUP, &br_for_markup, w->quantity));
+    br_label_set(panel->y_label, error, w->unit);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "front of all"), *others = NULL;
     for (size_t i = 0; i < w->points; i++) {
         if (w->point[i].front)
@@ -52,7 +49,7 @@ struct br_figure br_work_draw(const struct br_work_precision *works, size_t coun
     BR_SAY(f.stem, "trade");
     BR_SAY(f.title, "%s", caption);
     BR_SAY(f.about, "errors over costs of each program, and the front of all");
-    BR_SAY(f.hollow, "mostly the start of the program");
+    BR_SAY(f.hollow, "mostly its start");
     for (size_t i = 0; i < count && i < BR_FIGURE_PANELS; i++)
         add_work(&f, &works[i]);
     return f;

@@ -114,6 +114,13 @@ const struct br_friction_model br_friction_models[] = {
 _Static_assert(sizeof br_friction_models / sizeof *br_friction_models == BR_FRICTION_LAWS,
                "a law of friction has no row");
 
+static const char *law_name(size_t row)
+{
+    return row + 1 < BR_FRICTION_LAWS ? br_friction_models[row + 1].name : NULL;
+}
+
+const struct br_words br_friction_words = {law_name, NULL, NULL};
+
 bool br_friction_rubs(const struct br_friction *f)
 {
     return f->law != BR_FRICTIONLESS;

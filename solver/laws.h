@@ -4,6 +4,7 @@
 #ifndef BR_SOLVER_LAWS_H
 #define BR_SOLVER_LAWS_H
 
+#include "base/words.h"
 #include "solver/field.h"
 #include "solver/scene.h"
 
@@ -67,6 +68,9 @@ struct br_friction_model {
 
 /* By enum br_friction_law; all NULL: no friction. */
 extern const struct br_friction_model br_friction_models[];
+
+/* Their names; row 0 is the law after BR_FRICTIONLESS. */
+extern const struct br_words br_friction_words;
 
 /* Whether there is friction, and whether its bound depends on the penetration of the contact. */
 bool br_friction_rubs(const struct br_friction *friction);

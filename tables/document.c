@@ -52,6 +52,14 @@ static void *grown(struct br_document *d, void *list, size_t count, size_t *room
     return larger;
 }
 
+/* Stores the failure of a report that is built wrongly; it is not printed. */
+static void refuse(struct br_document *d, const char *what, const char *key)
+{
+    if (!d->failure.status)
+        br_fail(&d->failure, BR_IO, "the report %.100s was built wrongly: %s '%.100s'",
+                d->name ? d->name : "", what, key ? key : "");
+}
+
 static const char *note_length(struct br_document *d, const char *text)
 {
     const size_t length = strlen(text);
@@ -86,9 +94,11 @@ const char *br_format(struct br_document *d, const char *format, ...)
     va_start(arguments, format);
     const int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
-    char *text = length < 0 ? NULL : take(d, (size_t)length + 1);
+    if (length < 0)
+        refuse(d, "no text by the format", format);
+    char *text = take(d, (size_t)length + 1);
     if (!text)
-        return NULL;
+        return "";
     va_start(arguments, format);
     vsnprintf(text, (size_t)length + 1, format, arguments);
     va_end(arguments);
@@ -111,14 +121,6 @@ void br_document_begin(struct br_document *d, const char *name, const char *form
     d->format = copied(d, format);
     d->version = version;
     d->caption = copied(d, caption);
-}
-
-/* Stores the failure of a report that is built wrongly; it is not printed. */
-static void refuse(struct br_document *d, const char *what, const char *key)
-{
-    if (!d->failure.status)
-        br_fail(&d->failure, BR_IO, "the report %.100s was built wrongly: %s '%.100s'",
-                d->name ? d->name : "", what, key ? key : "");
 }
 
 /* Makes the document fail where the program must stop. */
@@ -153,9 +155,9 @@ static void put_paragraph(struct br_document *d, enum br_block_kind kind, const 
 void br_put_answer_text(struct br_document *d, const char *text)
 {
     d->open = &d->answer[d->answers];
-    if (text && d->answers < BR_MOST_ANSWERS)
+    if (d->answers < BR_MOST_ANSWERS)
         d->answer[d->answers++] = text;
-    else if (text)
+    else
         put_paragraph(d, BR_BLOCK_NOTE, text);
 }
 
@@ -173,8 +175,20 @@ void br_put_more_text(struct br_document *d, const char *more)
 {
     if (!d->open)
         refuse(d, "there is no text before", more);
-    else if (more)
+    else if (!d->failure.status)
         *d->open = br_format(d, "%s%s", *d->open, more);
+}
+
+void br_put_list(struct br_document *d, const char *before, const char *between)
+{
+    d->before = before;
+    d->between = between;
+    d->items = 0;
+}
+
+void br_put_item_text(struct br_document *d, const char *text)
+{
+    br_put_more(d, "%s%s", d->items++ ? d->between : d->before, text);
 }
 
 /* Whether printf may be called with this format and one double. */
@@ -302,20 +316,6 @@ static void add_column(struct br_document *d, struct br_document_table *t,
         t->column[t->columns++] = copy;
 }
 
-void br_put_columns(struct br_document *d, const struct br_column *columns, size_t count)
-{
-    struct br_document_table *t = open_table(d);
-    for (size_t i = 0; i < count && t && !d->failure.status; i++) {
-        const char *key = key_of(&columns[i]);
-        if (t->rows)
-            refuse(d, "a column after the first row:", key);
-        else if (find_column(t, key, 0) < t->columns)
-            refuse(d, "two columns with the key", key);
-        else
-            add_column(d, t, &columns[i]);
-    }
-}
-
 void br_put_row(struct br_document *d)
 {
     ask(d);
@@ -323,11 +323,10 @@ void br_put_row(struct br_document *d)
     if (!t)
         return;
     t->row = grown(d, t->row, t->rows, &t->row_room, sizeof *t->row);
-    t->cell_room = t->columns + !t->columns; /* of the first row, which may get more columns */
+    t->cell_room = t->columns + !t->columns; /* of the first row, which gets more columns */
     struct br_document_cell *cell = take(d, t->cell_room * sizeof *cell);
     if (!t->row || !cell)
         return;
-    t->grows = !t->rows && !t->columns;
     t->row[t->rows++] = (struct br_document_row){.cell = cell};
     d->last = NULL;
     d->open = NULL;
@@ -335,17 +334,24 @@ void br_put_row(struct br_document *d)
     d->blank = false;
 }
 
-/* The index of the column of a key. The first row makes the column if the table began without
- * columns. t->columns: there is none. */
+void br_put_no_row(struct br_document *d)
+{
+    struct br_document_table *t = open_table(d);
+    for (size_t c = 0; t && c < t->columns; c++)
+        t->column[c].flags &= ~(unsigned)(BR_FILLED | BR_TEXTUAL | BR_UNLIKE);
+    if (t)
+        t->rows -= t->rows > 0;
+}
+
+/* The index of the column of a key, which the first row makes. t->columns: there is none. */
 static size_t column_of(struct br_document *d, struct br_document_table *t,
                         const struct br_column *column)
 {
-    const bool next = !column->key && !column->heading;
-    const size_t at = next ? d->next : find_column(t, key_of(column), d->next);
-    if (at >= t->columns && t->grows && !next)
+    const size_t at = find_column(t, key_of(column), d->next);
+    if (at >= t->columns && t->rows == 1)
         add_column(d, t, column);
     if (at >= t->columns || !t->rows)
-        refuse(d, "no cell for", next ? t->key : key_of(column));
+        refuse(d, "no cell for", key_of(column));
     return at;
 }
 
@@ -382,12 +388,6 @@ void br_hide(struct br_document *d, const char *key, const char *unit, struct br
     BR_PUT(d, value, .key = key, .unit = unit, .flags = BR_FOR_PROGRAMS);
 }
 
-void br_put_cells(struct br_document *d, size_t count, const struct br_value *values)
-{
-    for (size_t i = 0; i < count; i++)
-        BR_PUT(d, values[i], .key = NULL);
-}
-
 void br_put_across(struct br_document *d)
 {
     struct br_document_table *t = open_table(d);
@@ -395,22 +395,20 @@ void br_put_across(struct br_document *d)
     if (!t || t->rows == 0 || t->columns < BR_ACROSS * t->rows)
         return;
     br_put_table(d, "", t->title, BR_FOR_PEOPLE | t->flags);
-    for (size_t c = 0; c < t->columns && !d->failure.status; c++) {
+    for (size_t c = 1; c < t->columns && !d->failure.status; c++) {
         const struct br_column *of = &t->column[c];
-        if (c > 0 && br_document_is_shown(t, c))
-            BR_PUT_ROW(d, br_text(br_format(d, "%s%s%s", of->heading, of->unit ? ", " : "",
-                                            of->unit ? of->unit : "")));
-        else if (c == 0)
-            br_put_columns(d, &(struct br_column){.key = "", .heading = of->heading}, 1);
-        for (size_t r = 0; r < t->rows && (c == 0 || br_document_is_shown(t, c)); r++) {
-            const char *shown = br_document_shown(of, &t->row[r].cell[c], text);
-            const struct br_column column = {.key = br_format(d, "%zu", r), .heading = shown};
-            if (c == 0)
-                br_put_columns(d, &column, 1);
-            else {
-                BR_PUT_CELLS(d, t->row[r].cell[c].value);
-                br_put_shown(d, "%s", shown);
-            }
+        if (!br_document_is_shown(t, c))
+            continue;
+        br_put_row(d);
+        BR_PUT(d,
+               br_text(br_format(d, "%s%s%s", of->heading, of->unit ? ", " : "",
+                                 of->unit ? of->unit : "")),
+               .key = "", .heading = t->column->heading);
+        for (size_t r = 0; r < t->rows; r++) {
+            const struct br_document_cell *head = t->row[r].cell, *cell = &head[c];
+            BR_PUT(d, cell->value, .key = br_format(d, "%zu", r),
+                   .heading = br_document_shown(t->column, head, text));
+            br_put_shown(d, "%s", br_document_shown(of, cell, text));
         }
     }
     t->flags |= BR_FOR_PROGRAMS;

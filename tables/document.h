@@ -16,8 +16,8 @@
  *     }
  *     br_put_provenance(d, &provenance);
  *
- * The first row makes the columns of its table. A table that may have no row begins with its
- * columns (BR_TABLE); then a row is its values in their order (BR_PUT_ROW).
+ * The first row makes the columns of its table. A table that may have no row, and whose columns
+ * have units, gets them by a row that is taken back (br_put_no_row).
  *
  * Each call copies its arguments. No call fails: the document stores the first failure (no memory,
  * a key that no column has), ignores all later calls, and reports the failure when it is printed.
@@ -121,7 +121,6 @@ struct br_document_table {
     struct br_column *column;
     struct br_document_row *row;
     size_t columns, rows, column_room, cell_room, row_room;
-    bool grows; /* for building: whether the first row still makes the columns */
 };
 
 enum br_outcome {
@@ -206,6 +205,8 @@ struct br_document {
     const char **open;             /* the text that br_put_more extends; NULL: none */
     size_t next;                   /* column */
     bool blank;                    /* whether values that are put into the row become nothing */
+    const char *before, *between;  /* items of a list ... */
+    size_t items;                  /* of which it has so many */
     struct br_error failure;
 };
 
@@ -219,7 +220,7 @@ void br_document_begin(struct br_document *d, const char *name, const char *form
 void br_document_clear(struct br_document *d);
 
 /* A formatted text in the memory of the document, without the sign of numbers that round to zero.
- * NULL after a failure. */
+ * "" after a failure. */
 __attribute__((format(printf, 2, 3))) const char *br_format(struct br_document *d,
                                                             const char *format, ...);
 
@@ -239,6 +240,12 @@ void br_put_note_text(struct br_document *d, const char *text);
 #define br_put_more(d, ...) br_put_more_text((d), br_format((d), __VA_ARGS__))
 void br_put_more_text(struct br_document *d, const char *text);
 
+/* A list in the last answer or note: the first item gets the text `before`, the next ones `between`
+ * (both borrowed). d->items says how many there are. */
+void br_put_list(struct br_document *d, const char *before, const char *between);
+#define br_put_item(d, ...) br_put_item_text((d), br_format((d), __VA_ARGS__))
+void br_put_item_text(struct br_document *d, const char *text);
+
 /* One value: "label: value unit" for people, "key": value at the top of the JSON; a key with dots
  * (tip.displacement) is an object in an object. `what` is as a column. With BR_FOR_PROGRAMS,
  * without a heading, or without a value, it is in JSON only. CSV has no facts. */
@@ -253,27 +260,18 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
 /* A command line, or several, to copy; a fact in JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);
 
-/* Begins a table; adds columns to it before its first row. A table without rows is in JSON only. */
+/* Begins a table. Without rows it is in JSON only. */
 void br_put_table(struct br_document *d, const char *key, const char *title, unsigned flags);
-void br_put_columns(struct br_document *d, const struct br_column *columns, size_t count);
-#define BR_TABLE(d, key, title, flags, columns)  \
-    (br_put_table((d), (key), (title), (flags)), \
-     br_put_columns((d), (columns), sizeof(columns) / sizeof *(columns)))
 
-/* Begins a row of cells that are nothing. */
+/* Begins a row of cells that are nothing; takes the last row back, but for the columns that it has
+ * made. */
 void br_put_row(struct br_document *d);
+void br_put_no_row(struct br_document *d);
 
 /* Puts a value into the row, under the column of that key (or heading, where there is no key). The
- * first row of a table without columns makes them. */
+ * first row makes the columns. */
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value);
 #define BR_PUT(d, value, ...) br_put_cell((d), &(struct br_column){__VA_ARGS__}, (value))
-
-/* Puts values under the next columns, in their order: of a new row, or of the last one. */
-void br_put_cells(struct br_document *d, size_t count, const struct br_value *values);
-#define BR_PUT_CELLS(d, ...)                                                              \
-    br_put_cells((d), sizeof((struct br_value[]){__VA_ARGS__}) / sizeof(struct br_value), \
-                 (const struct br_value[]){__VA_ARGS__})
-#define BR_PUT_ROW(d, ...) (br_put_row(d), BR_PUT_CELLS(d, __VA_ARGS__))
 
 /* BR_PUT of a column for programs. unit: NULL, none. */
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);

@@ -70,8 +70,10 @@ static void open_table(const struct br_markup_page *p, const struct br_document_
     br_markup_heading(p, level, t->title);
     if (is_folded(t))
         fprintf(p->out, "(%zu rows)</summary>\n", t->rows);
-    br_markup_put(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", t->title,
-                  "\"><table>\n<thead><tr>\n");
+    br_markup_put(p,
+                  "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"%s\"><table>\n"
+                  "<thead><tr>\n",
+                  t->title);
 }
 
 static void close_table(const struct br_markup_page *p, const struct br_document_table *t)
@@ -131,7 +133,7 @@ static bool print_svg(const struct br_markup_page *p, const char *svg, const cha
     view += strlen(key);
     fprintf(p->out, "<div class=\"card\"><svg viewBox=\"%.*s\" role=\"img\" aria-label=\"",
             (int)strcspn(view, "\""), view);
-    br_markup_put(p, "", caption, "\">");
+    br_markup_put(p, "%s\">", caption);
     print_unique(p, rest + 1);
     fputs("</div>\n", p->out);
     return true;
@@ -143,10 +145,11 @@ static void print_picture(struct br_markup_page *p, const struct br_block *b)
     p->pictures++;
     fputs("<figure>\n", p->out);
     const bool drawn = print_svg(p, svg, b->text);
-    br_markup_put(p, drawn ? "<figcaption>" : "<figcaption>Not drawn here: ", b->text,
-                  drawn ? NULL : ". Where gnuplot is installed, its script draws it: ");
+    br_markup_put(p, drawn ? "<figcaption>%s" : "<figcaption>Not drawn here: %s", b->text);
     if (!drawn)
-        br_markup_put(p, "<code>gnuplot ", b->what.key, ".gp</code>");
+        br_markup_put(
+            p, ". Where gnuplot is installed, its script draws it: <code>gnuplot %s.gp</code>",
+            b->what.key);
     fputs("</figcaption>\n</figure>\n", p->out);
     free(svg);
 }
@@ -156,7 +159,7 @@ static void end(const struct br_markup_page *p)
     const struct br_provenance *from = &p->d->provenance;
     if (!from->scene_text)
         return;
-    br_markup_put(p, "<details><summary>Scene ", from->scene_path, "</summary>\n");
+    br_markup_put(p, "<details><summary>Scene %s</summary>\n", from->scene_path);
     br_markup_lines(p, from->scene_text);
     fputs("</details>\n", p->out);
 }
@@ -172,10 +175,8 @@ static void print_provenance(const struct br_markup_page *p, const struct br_pro
     if (from->command_line)
         br_markup_lines(p, from->command_line);
     fputs("<dl>\n", p->out);
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        br_markup_put(p, "<div><dt>", rows[i][0], "</dt>\n");
-        br_markup_put(p, "<dd>", rows[i][1], "</dd></div>\n");
-    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        br_markup_put(p, "<div><dt>%s</dt>\n<dd>%s</dd></div>\n", rows[i][0], rows[i][1]);
     fprintf(p->out, "<div><dt>Threads</dt>\n<dd>%d</dd></div>\n</dl>\n", from->threads);
 }
 
@@ -192,16 +193,16 @@ static const struct br_markup html = {
     .note = {"<p>", "</p>\n"},
     .facts = {"<dl>\n", "</dl>\n"},
     .fact = {"<div>", "</dd></div>\n"},
-    .label = {"<dt>", "</dt>\n<dd>"},
-    .command = {"<p>", "</p>\n"},
+    .label = "<dt>%s</dt>\n<dd>",
+    .command = "<p>%s</p>\n",
     .lines = {"<pre>", "</pre>\n"},
     .line = {"", "\n"},
     .verdicts = {"<ul>\n", "</ul>\n"},
     .verdict = {"<li>", "</li>\n"},
-    .detail = {"<li class=\"detail\">", "</li>\n"},
+    .detail = "<li class=\"detail\">%s</li>\n",
     .head = {"<th scope=\"col\"%s>", "</th>\n"},
     .cell = {"<td%s>", "</td>"},
-    .mark = {" <small>", "</small>"},
+    .mark = " <small>%s</small>",
     .row = {"<tr>", "</tr>\n"},
     .rows = {"</tr></thead>\n<tbody>\n", "</tbody></table></div>\n"},
     .word = "<strong class=\"%s\">%s</strong>",
@@ -218,7 +219,7 @@ static void print_title(const struct br_markup_page *p, const struct br_document
 {
     const size_t first = strcspn(d->format, " "), blank = d->format[first] == ' ';
     if (count == 1)
-        br_markup_text(p, d->caption);
+        br_markup_put(p, "%s", d->caption);
     else
         fprintf(p->out, "%.*s: %zu reports",
                 (int)(first + blank + strcspn(d->format + first + blank, " ")), d->format, count);
@@ -231,14 +232,13 @@ static void print_contents(struct br_markup_page *p, const struct br_document *d
     print_title(p, d, count);
     fputs("</h1>\n<nav aria-label=\"Contents\"><ol>\n", p->out);
     for (size_t i = 0; i < count; i++) {
-        fprintf(p->out, "<li><a href=\"#report%zu\">", i + 1);
-        br_markup_put(p, "", d[i].caption, "</a> (");
-        br_markup_put(p, "", d[i].name, ")<br>");
+        br_markup_put(p, "<li><a href=\"#report%zu\">%s</a> (%s)<br>", i + 1, d[i].caption,
+                      d[i].name);
         p->d = &d[i];
         if (p->d->verdicts)
             br_markup_tally(p);
         else
-            br_markup_text(p, p->d->answers ? p->d->answer[0] : "");
+            br_markup_put(p, "%s", p->d->answers ? p->d->answer[0] : "");
         fputs("</li>\n", p->out);
     }
     fputs("</ol></nav>\n", p->out);

@@ -67,8 +67,7 @@ static void open_table(const struct br_markup_page *p, const struct br_document_
     (void)level;
     fputs("\n\\begin{longtable}{", p->out);
     br_markup_columns(p, t, words);
-    br_markup_put(p, "}\n\\caption{", p->d->caption, ": ");
-    br_markup_put(p, "", t->title, "}\\\\\n\\toprule\n");
+    br_markup_put(p, "}\n\\caption{%s: %s}\\\\\n\\toprule\n", p->d->caption, t->title);
 }
 
 /* Includes the picture if there is a PDF, which LaTeX reads. */
@@ -78,7 +77,7 @@ static void picture(struct br_markup_page *p, const struct br_block *b)
             "\\IfFileExists{\\detokenize{%s}.pdf}{\\begin{figure}\n\\centering\n"
             "\\includegraphics[width=\\textwidth]{\\detokenize{%s}.pdf}\n\\caption{",
             b->what.key, b->what.key);
-    br_markup_put(p, "", b->text, "}\n\\end{figure}}{}\n");
+    br_markup_put(p, "%s}\n\\end{figure}}{}\n", b->text);
 }
 
 static const struct br_markup latex = {
@@ -88,13 +87,13 @@ static const struct br_markup latex = {
     .answer = {"", "\\par\n"},
     .note = {"", "\\par\n"},
     .fact = {"", "\\par\n"},
-    .label = {"", ": "},
-    .command = {"", ":\n"},
+    .label = "%s: ",
+    .command = "%s:\n",
     .lines = {"\\begin{flushleft}\n", "\\end{flushleft}\n"},
     .line = {"\\texttt{", "}\\par\n"},
     .verdict = {"", "\\par\n"},
-    .detail = {"", "\\par\n"},
-    .mark = {"$^{\\mathrm{", "}}$"},
+    .detail = "%s\\par\n",
+    .mark = "$^{\\mathrm{%s}}$",
     .row = {"", " \\\\\n"},
     .rows = {" \\\\\n\\midrule\n\\endhead\n", "\\bottomrule\n\\end{longtable}\n"},
     .word = "\\textbf{%s}",

@@ -6,7 +6,7 @@
 
 static void begin(const struct br_markup_page *p)
 {
-    br_markup_put(p, "# ", p->d->caption, "\n\n");
+    br_markup_put(p, "# %s\n\n", p->d->caption);
 }
 
 static void open_table(const struct br_markup_page *p, const struct br_document_table *t, int level)
@@ -25,9 +25,8 @@ static void open_rows(const struct br_markup_page *p, const struct br_document_t
 
 static void picture(struct br_markup_page *p, const struct br_block *b)
 {
-    br_markup_put(p, "![", b->text, "](<");
-    br_quote(p->out, &br_for_text, b->what.key);
-    fputs(".svg>)\n", p->out);
+    br_markup_put(p, "![%s]", b->text);
+    br_print(p->out, &br_for_text, "(<%s.svg>)\n", b->what.key);
 }
 
 /* Prints the command line between backticks, unless it contains one. */
@@ -38,12 +37,10 @@ static void end(const struct br_markup_page *p)
     if (!from->version)
         return;
     fprintf(p->out, "\nbeamrate %s (%s), %s", from->version, from->commit, from->date);
-    if (line) {
-        const bool plain = !strchr(line, '`');
-        fputs(plain ? ": `" : ": ", p->out);
-        br_quote(p->out, plain ? &br_for_text : &br_for_markdown, line);
-        fputs(plain ? "`" : "", p->out);
-    }
+    if (line && strchr(line, '`'))
+        br_markup_put(p, ": %s", line);
+    else if (line)
+        br_print(p->out, &br_for_text, ": `%s`", line);
     fputc('\n', p->out);
 }
 
@@ -54,15 +51,15 @@ static const struct br_markup markdown = {
     .answer = {"- ", "\n"},
     .note = {"- ", "\n"},
     .fact = {"- ", "\n"},
-    .label = {"", ": "},
-    .command = {"", ":\n\n"},
+    .label = "%s: ",
+    .command = "%s:\n\n",
     .lines = {"````\n", "````\n"}, /* a line of a command cannot end this block */
     .line = {"", "\n"},
     .verdict = {"- ", "\n"},
-    .detail = {"  - ", "\n"},
+    .detail = "  - %s\n",
     .head = {" ", " |"},
     .cell = {" ", " |"},
-    .mark = {" (", ")"},
+    .mark = " (%s)",
     .row = {"|", "\n"},
     .word = "**%s**",
     .gap = "\n",

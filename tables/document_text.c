@@ -68,7 +68,7 @@ static int print_heading(const struct br_markup_page *p, const char *text)
 {
     const int width = width_of(p, text);
     if (!p->columns || width <= p->columns) {
-        br_markup_put(p, NULL, text, NULL);
+        br_markup_put(p, "%s", text);
         return width;
     }
     print_paragraph(p, text);
@@ -216,8 +216,8 @@ static void print_piece(const struct br_markup_page *p, struct layout *l, const 
     const int missing = l->width - width_of(p, b->piece);
     print_blanks(p, l->left ? 0 : missing);
     if (!br_markup_word(p, b->piece, bytes))
-        br_markup_text(p, b->piece);
-    br_markup_text(p, mark);
+        br_markup_put(p, "%s", b->piece);
+    br_markup_put(p, "%s", mark);
     if (!l->ends)
         print_blanks(p, (l->left ? missing : 0) + l->mark - width_of(p, mark) + GAP);
 }
@@ -275,8 +275,7 @@ static void print_table(struct br_markup_page *p, const struct br_document_table
 
 static void print_picture(struct br_markup_page *p, const struct br_block *b)
 {
-    br_markup_put(p, "Picture ", b->what.key, ": ");
-    br_markup_put(p, "", b->text, "\n");
+    br_markup_put(p, "Picture %s: %s\n", b->what.key, b->text);
 }
 
 static const struct br_markup text = {
@@ -285,11 +284,12 @@ static const struct br_markup text = {
     .answer = {"", "\n"},
     .note = {"", "\n"},
     .fact = {"", "\n"},
-    .label = {"", ": "},
-    .command = {"", ":\n"},
+    .label = "%s: ",
+    .command = "%s:\n",
     .line = {"  ", "\n"},
     .verdict = {"\n", "\n"},
-    .detail = {"  ", "\n"},
+    .detail = "  %s\n",
+    .mark = "%s",
     .word = "%s",
     .gap = "\n",
     .title = print_title,

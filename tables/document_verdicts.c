@@ -21,21 +21,6 @@ static void print_row(FILE *out, const struct br_document *d, const struct br_do
         }
 }
 
-/* "  name: text" */
-static void print_line(FILE *out, const char *name, const char *text)
-{
-    fprintf(out, "  %s: ", name);
-    br_quote(out, &br_for_xml, text);
-    fputc('\n', out);
-}
-
-static void print_attribute(FILE *out, const char *name, const char *text)
-{
-    fprintf(out, " %s=\"", name);
-    br_quote(out, &br_for_xml, text);
-    fputc('"', out);
-}
-
 /* Prints counts of the verdicts from `begin` to `end`. */
 static void print_counts(FILE *out, const struct br_document *d, size_t begin, size_t end)
 {
@@ -53,11 +38,11 @@ static void print_counts(FILE *out, const struct br_document *d, size_t begin, s
 static void print_details(FILE *out, const struct br_document_verdict *v)
 {
     if (v->file)
-        print_line(out, "file", v->file);
+        br_print(out, &br_for_xml, "  file: %s\n", v->file);
     if (v->line)
         fprintf(out, "  line: %zu\n", v->line);
     for (size_t i = 0; i < v->details; i++)
-        print_line(out, "detail", v->detail[i]);
+        br_print(out, &br_for_xml, "  detail: %s\n", v->detail[i]);
 }
 
 static void print_testcase(FILE *out, const struct br_document *d,
@@ -65,22 +50,18 @@ static void print_testcase(FILE *out, const struct br_document *d,
 {
     static const char *const elements[] = {NULL, "failure", "failure", "error"};
     const char *element = elements[v->outcome];
-    fputs("    <testcase classname=\"beamrate.", out);
-    br_quote(out, &br_for_xml, v->group);
-    fputc('"', out);
-    print_attribute(out, "name", v->name);
-    fprintf(out, " time=\"%.6f\">\n", v->seconds);
+    br_print(out, &br_for_xml,
+             "    <testcase classname=\"beamrate.%s\" name=\"%s\" time=\"%.6f\">\n", v->group,
+             v->name, v->seconds);
     if (element) {
-        fprintf(out, "      <%s", element);
-        print_attribute(out, "type", br_outcome_names[v->outcome]);
-        print_attribute(out, "message", v->message ? v->message : "");
-        fputs(">\n", out);
+        br_print(out, &br_for_xml, "      <%s type=\"%s\" message=\"%s\">\n", element,
+                 br_outcome_names[v->outcome], v->message ? v->message : "");
         print_details(out, v);
         fprintf(out, "      </%s>\n", element);
     }
     fputs("      <system-out>\n", out);
     if (!element && v->message)
-        print_line(out, "message", v->message);
+        br_print(out, &br_for_xml, "  message: %s\n", v->message);
     if (!element)
         print_details(out, v);
     print_row(out, d, v);
@@ -91,8 +72,8 @@ static enum br_status write_junit(FILE *out, const struct br_document *d,
                                   const struct br_document_table *table, struct br_error *err)
 {
     (void)table, (void)err;
-    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites", out);
-    print_attribute(out, "name", d->format);
+    br_print(out, &br_for_xml,
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"%s\"", d->format);
     print_counts(out, d, 0, d->verdicts);
     fputs(">\n", out);
     for (size_t begin = 0, end; begin < d->verdicts; begin = end) {
@@ -100,8 +81,7 @@ static enum br_status write_junit(FILE *out, const struct br_document *d,
         end = begin + 1;
         while (end < d->verdicts && strcmp(group, d->verdict[end].group) == 0)
             end++;
-        fputs("  <testsuite", out);
-        print_attribute(out, "name", group);
+        br_print(out, &br_for_xml, "  <testsuite name=\"%s\"", group);
         print_counts(out, d, begin, end);
         fputs(" skipped=\"0\"", out);
         if (d->provenance.date)
@@ -134,24 +114,15 @@ static enum br_status write_annotations(FILE *out, const struct br_document *d,
         if (!levels[v->outcome])
             continue;
         fprintf(out, "::%s ", levels[v->outcome]);
-        if (v->file) {
-            fputs("file=", out);
-            br_quote(out, &br_for_github_property, v->file);
-            fputc(',', out);
-        }
+        if (v->file)
+            br_print(out, &br_for_github_property, "file=%s,", v->file);
         if (v->file && v->line)
             fprintf(out, "line=%zu,", v->line);
-        fputs("title=", out);
-        br_quote(out, &br_for_github_property, v->group);
-        fputs("::", out);
-        br_quote(out, &br_for_github, v->name);
-        fprintf(out, " %s", br_outcome_names[v->outcome]);
-        fputs(v->message ? ": " : "", out);
-        br_quote(out, &br_for_github, v->message ? v->message : "");
-        for (size_t j = 0; j < v->details; j++) {
-            fputs("%0A", out);
-            br_quote(out, &br_for_github, v->detail[j]);
-        }
+        br_print(out, &br_for_github_property, "title=%s::", v->group);
+        br_print(out, &br_for_github, "%s %s%s%s", v->name, br_outcome_names[v->outcome],
+                 v->message ? ": " : "", v->message ? v->message : "");
+        for (size_t j = 0; j < v->details; j++)
+            br_print(out, &br_for_github, "%%0A%s", v->detail[j]);
         fputc('\n', out);
     }
     return BR_OK;

@@ -12,24 +12,6 @@ static void say(const struct br_markup_page *p, const char *text)
         fputs(text, p->out);
 }
 
-void br_markup_text(const struct br_markup_page *p, const char *text)
-{
-    br_quote(p->out, p->markup->quoting, text ? text : "");
-}
-
-void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
-                   const char *after)
-{
-    say(p, before);
-    br_markup_text(p, text);
-    say(p, after);
-}
-
-static void put(const struct br_markup_page *p, const struct br_around *a, const char *text)
-{
-    br_markup_put(p, a->before, text, a->after);
-}
-
 /* An answer or a note. */
 static void put_paragraph(const struct br_markup_page *p, const struct br_around *a,
                           const char *text)
@@ -38,7 +20,7 @@ static void put_paragraph(const struct br_markup_page *p, const struct br_around
     if (p->markup->paragraph)
         p->markup->paragraph(p, text);
     else
-        br_markup_text(p, text);
+        br_markup_put(p, "%s", text);
     say(p, a->after);
 }
 
@@ -49,7 +31,7 @@ void br_markup_heading(const struct br_markup_page *p, int level, const char *te
         return;
     }
     fprintf(p->out, p->markup->heading.before, level);
-    br_markup_text(p, text);
+    br_markup_put(p, "%s", text);
     fprintf(p->out, p->markup->heading.after, level);
 }
 
@@ -85,7 +67,7 @@ static void print_by(const struct br_markup_page *p, void (*own)(FILE *out, cons
     if (own)
         own(p->out, text);
     else
-        br_markup_text(p, text);
+        br_markup_put(p, "%s", text);
 }
 
 static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
@@ -142,9 +124,9 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
     if (cell->value.kind != BR_TEXT || cell->shown)
         print_by(p, p->markup->number, text);
     else if (!br_markup_word(p, text, strlen(text)))
-        br_markup_text(p, text);
+        br_markup_put(p, "%s", text);
     if (cell->mark)
-        put(p, &p->markup->mark, cell->mark);
+        br_markup_put(p, p->markup->mark, cell->mark);
 }
 
 /* row: NULL, the head. The text before a cell may contain its alignment (%s). */
@@ -195,7 +177,7 @@ static void print_table(struct br_markup_page *p, const struct br_document_table
 
 static void print_command(const struct br_markup_page *p, const struct br_block *b)
 {
-    put(p, &p->markup->command, b->what.heading);
+    br_markup_put(p, p->markup->command, b->what.heading);
     br_markup_lines(p, b->cell.value.text);
 }
 
@@ -214,7 +196,7 @@ static void print_block(struct br_markup_page *p, const struct br_block *b, int 
         break;
     case BR_BLOCK_FACT:
         say(p, p->markup->fact.before);
-        put(p, &p->markup->label, b->what.heading);
+        br_markup_put(p, p->markup->label, b->what.heading);
         print_value(p, &b->what, &b->cell);
         print_unit(p, " ", b->what.unit);
         say(p, p->markup->fact.after);
@@ -301,20 +283,17 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
     say(p, p->markup->verdict.before);
     print_word(p, v->outcome);
     fputc(' ', p->out);
-    br_markup_text(p, v->group);
-    br_markup_put(p, ", ", v->name, NULL);
-    if (v->line) {
-        br_markup_put(p, " (", v->file, NULL);
-        fprintf(p->out, ":%zu)", v->line);
-    }
+    br_markup_put(p, "%s, %s", v->group, v->name);
+    if (v->line)
+        br_markup_put(p, " (%s:%zu)", v->file, v->line);
     fputs(!v->message ? "" : wraps ? ":\n" : ": ", p->out);
     if (wraps)
         p->markup->paragraph(p, v->message);
     else
-        br_markup_text(p, v->message);
+        br_markup_put(p, "%s", v->message);
     say(p, p->markup->verdict.after);
     for (size_t i = 0; i < v->details && !(passed && p->terminal); i++)
-        put(p, &p->markup->detail, v->detail[i]);
+        br_markup_put(p, p->markup->detail, v->detail[i]);
 }
 
 void br_markup_tally(const struct br_markup_page *p)

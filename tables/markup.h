@@ -29,9 +29,10 @@ struct br_around {
 
 struct br_markup {
     const struct br_quoting *quoting, *of_lines; /* of texts; of lines to be copied */
-    struct br_around heading, answers, answer, note, facts, fact, label, command, lines, line,
-        verdicts, verdict, detail, head, cell, mark, row, rows;
-    const char *word; /* of a verdict: %s is the word, once or twice */
+    struct br_around heading, answers, answer, note, facts, fact, lines, line, verdicts, verdict,
+        head, cell, row, rows;                   /* of a heading %d is the level */
+    const char *label, *command, *detail, *mark; /* %s is the text */
+    const char *word;                            /* of a verdict: %s is the word, once or twice */
     /* NULL: nothing. */
     const char *gap;     /* before a block of another kind than the last */
     const char *between; /* two cells */
@@ -55,11 +56,8 @@ struct br_markup {
     const char *const *classes; /* for %s in head and cell, as br_markup_columns; NULL: none */
 };
 
-/* Print a text as the format quotes it (NULL: nothing), also between two other texts. In headings
- * %d is the level. */
-void br_markup_text(const struct br_markup_page *p, const char *text);
-void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
-                   const char *after);
+/* Prints by a format, texts as they are quoted here. */
+#define br_markup_put(p, ...) br_print((p)->out, (p)->markup->quoting, __VA_ARGS__)
 /* Prints the word of a verdict, if the first `bytes` bytes of the text are one; else nothing, and
  * returns false. */
 bool br_markup_word(const struct br_markup_page *p, const char *text, size_t bytes);

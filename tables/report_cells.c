@@ -5,17 +5,24 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-void br_put_estimate(struct br_document *d, const struct br_column *column,
+const char *br_order_shown(struct br_document *d, const struct br_estimate *e)
+{
+    return br_format(d, "%s", br_order_text(e, (char[64]){0}, 64));
+}
+
+const char *br_interval_shown(struct br_document *d, const struct br_estimate *e)
+{
+    return br_format(d, "%s", br_interval_text(e, (char[128]){0}, 128));
+}
+
+void br_put_estimate(struct br_document *d, const struct br_column *column, const char *prefix,
                      const struct br_estimate *e, const char *shown)
 {
-    char low[32], high[32];
-    snprintf(low, sizeof low, "%s_low", column->key);
-    snprintf(high, sizeof high, "%s_high", column->key);
     br_put_cell(d, column, br_number(e->value));
     if (shown && isfinite(e->value))
         br_put_shown(d, "%s", shown);
-    br_hide(d, low, column->unit, br_number(e->low));
-    br_hide(d, high, column->unit, br_number(e->high));
+    br_hide(d, br_format(d, "%slow", prefix), column->unit, br_number(e->low));
+    br_hide(d, br_format(d, "%shigh", prefix), column->unit, br_number(e->high));
 }
 
 struct br_value br_setting_value(const struct br_setting *s)

@@ -7,11 +7,16 @@
 #include "orders/expectation/setting.h"
 #include "tables/document.h"
 
-/* An estimate, with its interval in two more columns. shown: for people; NULL: the number. */
-void br_put_estimate(struct br_document *d, const struct br_column *column,
+/* An estimate as br_order_text and br_interval_text have it, in the memory of the document. */
+const char *br_order_shown(struct br_document *d, const struct br_estimate *estimate);
+const char *br_interval_shown(struct br_document *d, const struct br_estimate *estimate);
+
+/* An estimate, and for programs the ends of its interval under the keys PREFIXlow and PREFIXhigh.
+ * shown: for people; NULL: the number. */
+void br_put_estimate(struct br_document *d, const struct br_column *column, const char *prefix,
                      const struct br_estimate *estimate, const char *shown);
-#define BR_PUT_ESTIMATE(d, e, shown, ...) \
-    br_put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
+#define BR_PUT_ESTIMATE(d, prefix, e, shown, ...) \
+    br_put_estimate((d), &(struct br_column){__VA_ARGS__}, (prefix), (e), (shown))
 
 /* The value of a setting; nothing where it is not used. */
 struct br_value br_setting_value(const struct br_setting *setting);

@@ -11,28 +11,19 @@ enum {
     MOST_BESIDE = 4                   /* in one table of rows */
 };
 
-/* What is put before an item of a sentence; the first item follows a colon. */
-static const char *separator(bool *first)
-{
-    const bool was = *first;
-    *first = false;
-    return was ? " " : "; ";
-}
-
 /* An order that follows from a number of unknowns or cells says for which mesh. */
 static void say_dimension(struct br_document *d, const struct br_orders *o, double order)
 {
     const int assumed = (int)o->numbers->dimension;
     const char *name = o->numbers->column[BR_AXIS_SPACE]->name;
-    bool first = true;
+    const char *format = "; --dimension %d gives %.2f";
     br_put_more(d, " (%d-D assumed", assumed);
     if (assumed == 1)
         br_put_more(d, ", or %s along one side", name);
     for (int other = 1; other <= 3; other++)
         if (other != assumed) {
-            br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
-                        order * other / o->numbers->dimension);
-            first = false;
+            br_put_more(d, format, other, order * other / o->numbers->dimension);
+            format = ", %d gives %.2f";
         }
     br_put_more(d, ")");
 }
@@ -64,19 +55,16 @@ static void say_meaning(struct br_document *d, const struct br_orders *o,
 /* "exponential: each degree divides the error by 8.1 [7.9, 8.3]"; false: it is not, or not known.
  */
 static bool say_exponential(struct br_document *d, const struct br_orders *o,
-                            const struct br_orders_line *line, bool *first)
+                            const struct br_orders_line *line)
 {
     const struct br_resolution_column *size = o->numbers->column[line->axis];
     const struct br_estimate *factor = &line->observed.factor;
-    char text[64], of[32];
     if (!(isfinite(factor->low) && isfinite(factor->high)))
         return false;
     const bool counts = !size->is_size && !size->is_volume && !size->is_power;
-    snprintf(of, sizeof of, counts ? "%s" : "1/%s",
-             counts ? size->name : br_axis_letters[line->axis]);
-    br_put_more(d, "%sexponential: %s %s divides the error by %s", separator(first),
-                size->is_degree ? "each" : "one more of", of,
-                br_order_text(factor, text, sizeof text));
+    br_put_item(d, "exponential: %s %s%s divides the error by %s",
+                size->is_degree ? "each" : "one more of", counts ? "" : "1/",
+                counts ? size->name : br_axis_letters[line->axis], br_order_shown(d, factor));
     return true;
 }
 
@@ -90,28 +78,24 @@ static bool are_zero(const struct br_case *c)
 
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
-                      enum br_axis axis, bool *first)
+                      enum br_axis axis)
 {
-    char text[64];
     const bool joint = br_joint_describes(&of->joint), value = br_quantity_of(o, of)->is_value;
     const struct br_estimate *order = &of->answer[axis].order;
     const bool none = !isfinite(order->value) || order->value <= 0 || order->low <= 0;
     if (value && isnan(order->value))
         return; /* of three values, whose p is said */
-    if (none && line && say_exponential(d, o, line, first))
+    if (none && line && say_exponential(d, o, line))
         return;
     if (none && line && !value && o->numbers->column[axis]->is_degree &&
         !are_zero(&line->observed)) {
-        br_put_more(d,
-                    "%sexponential convergence not measurable, and errors over degrees have no "
-                    "order",
-                    separator(first));
+        br_put_item(d, "exponential convergence not measurable, and errors over degrees have no "
+                       "order");
         return;
     }
     const bool alone = !none && (!o->numbers->column[!axis] || o->tied);
-    br_put_more(d, "%sorder %s%s%s%s%s%s", separator(first), alone ? "" : "in ",
-                alone ? "" : br_axis_letters[axis], alone ? "" : " ",
-                none ? "not measurable" : br_order_text(order, text, sizeof text),
+    br_put_item(d, "order %s%s%s%s%s%s", alone ? "" : "in ", alone ? "" : br_axis_letters[axis],
+                alone ? "" : " ", none ? "not measurable" : br_order_shown(d, order),
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
     if (!none && !br_order_determined(order))
         br_put_more(d, " (not determined)");
@@ -126,27 +110,27 @@ static void say_order(struct br_document *d, const struct br_orders *o,
 }
 
 static void say_orders(struct br_document *d, const struct br_orders *o,
-                       const struct br_quantity_orders *of, bool *first)
+                       const struct br_quantity_orders *of)
 {
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_orders_line *line = br_orders_finest(of, (enum br_axis)axis);
         const struct br_orders_answer *answer = &of->answer[axis];
         if (answer->open && isnan(answer->order.value))
-            br_put_more(d, "%s%s", separator(first), answer->open);
+            br_put_item(d, "%s", answer->open);
         else if (line || joint)
-            say_order(d, o, of, line, (enum br_axis)axis, first);
+            say_order(d, o, of, line, (enum br_axis)axis);
     }
     if (joint)
-        br_put_more(d, "%sby the joint fit of %zu rows, misfit %.2g %%", separator(first),
-                    of->joint.points, 100 * of->joint.misfit);
+        br_put_item(d, "by the joint fit of %zu rows, misfit %.2g %%", of->joint.points,
+                    100 * of->joint.misfit);
     if (joint && isfinite(of->joint.floor))
-        br_put_more(d, "%swith a floor of %.1e", separator(first), of->joint.floor);
+        br_put_item(d, "with a floor of %.1e", of->joint.floor);
 }
 
 /* What the next finer size would give. */
 static void say_next(struct br_document *d, const struct br_orders *o,
-                     const struct br_quantity_orders *of, bool *first)
+                     const struct br_quantity_orders *of)
 {
     const struct br_orders_forecast f = br_orders_forecast_of(o, of);
     double given;
@@ -154,7 +138,7 @@ static void say_next(struct br_document *d, const struct br_orders *o,
     if (!f.line)
         return;
     const struct br_resolution_column *column = o->numbers->column[f.line->axis];
-    br_put_more(d, "%s%s = %s would give ", separator(first), column->name,
+    br_put_item(d, "%s = %s would give ", column->name,
                 br_numbers_text(column, given, (char[32]){0}));
     if (br_quantity_of(o, of)->is_value)
         br_put_more(d, "a GCI of %.2g %%", 100 * next);
@@ -259,15 +243,14 @@ static void say_left_out(struct br_document *d, const struct br_quantity_orders 
 
 /* The limit of a value. On a line also its grid convergence index. */
 static void say_limit(struct br_document *d, const struct br_orders *o,
-                      const struct br_quantity_orders *of, bool *first)
+                      const struct br_quantity_orders *of)
 {
     const struct br_grid_limit *limit = &of->limit;
     const struct br_gci *g = &of->line[0].limits.gci;
     if (isfinite(limit->value.low))
-        br_put_more(d, "%slimit %s", separator(first),
-                    br_interval_text(&limit->value, (char[128]){0}, 128));
+        br_put_item(d, "limit %s", br_interval_shown(d, &limit->value));
     else
-        br_put_more(d, "%sno limit", separator(first));
+        br_put_item(d, "no limit");
     if (br_quantity_of(o, of)->is_value && of->lines == 1 && isfinite(g->fine.index)) {
         br_put_more(d, ", p = %.2f", g->order);
         if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
@@ -346,7 +329,7 @@ static void say_restless(struct br_document *d, const struct br_orders *o,
     }
     for (size_t i = 2; i < count; i++)
         turns += (v[i] - v[i - 1]) * (v[i - 1] - v[i - 2]) < 0;
-    const double *finest = &v[count - 3];
+    const double *finest = &v[count < 3 ? 0 : count - 3];
     if (sequence == BR_MONOTONE_DIVERGENCE)
         br_put_more(d, " The differences grow: the sizes are too coarse, or there is no limit, as "
                        "at a singularity.");
@@ -488,86 +471,144 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
     }
 }
 
-/* Puts an order, and for programs the ends of its interval. */
-static void put_order(struct br_document *d, const struct br_estimate *order)
+/* Begins a row of a line. flags: of the quantity. */
+static void put_line(struct br_document *d, const struct br_orders *o,
+                     const struct br_quantity_orders *of, const struct br_orders_line *line,
+                     unsigned flags)
 {
-    BR_PUT_CELLS(d, br_number(order->value));
-    br_put_shown(d, "%s", br_order_text(order, (char[64]){0}, 64));
-    BR_PUT_CELLS(d, br_number(order->low), br_number(order->high));
+    br_put_row(d);
+    BR_PUT(d, br_text(br_quantity_of(o, of)->name), .key = "quantity", .flags = flags);
+    BR_PUT(d, br_text(line ? br_axis_letters[line->axis] : "h and k"), .key = "in",
+           .flags = BR_VARIES);
+    BR_PUT(d, br_text(line ? line->at : ""), .key = "at", .flags = BR_VARIES);
 }
 
-/* The limit with its interval for people, and its ends for programs. */
-static void put_limit(struct br_document *d, const struct br_grid_limit *limit)
+static void put_sequence(struct br_document *d, enum br_sequence sequence)
 {
-    char text[128];
-    BR_PUT_CELLS(d, br_number(limit->value.value));
-    br_put_shown(d, "%s", br_interval_text(&limit->value, text, sizeof text));
-    BR_PUT_CELLS(d, br_number(limit->value.low), br_number(limit->value.high),
-                 br_text("mixture of laws"));
+    BR_PUT(d, br_text(br_sequence_text(sequence)), .key = "sequence", .flags = BR_VARIES);
 }
 
-/* The grid convergence index of each three neighbouring sizes, where there are more than three. */
-static void put_triples(struct br_document *d, const struct br_orders *o)
+static void put_order(struct br_document *d, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line)
 {
-    static const struct br_column columns[] = {
-        {.key = "quantity", .flags = BR_VARIES},
-        {.key = "in", .flags = BR_VARIES},
-        {.key = "at", .flags = BR_VARIES},
-        {.key = "finest", .heading = "finest of three"},
-        {.key = "p", .format = "%.4f"},
-        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
-        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
-        {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e"},
-        {.key = "sequence", .flags = BR_VARIES},
-    };
-    BR_TABLE(d, "triples", "Grid convergence index of three neighbouring sizes", 0, columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++) {
-            const struct br_orders_line *line = &o->of[i].line[l];
-            for (size_t t = 0; t < line->limits.triples && line->limits.triples > 1; t++) {
-                const struct br_gci *g = &line->limits.triple[t];
-                BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
-                           br_text(br_axis_letters[line->axis]), br_text(line->at),
-                           br_number(line->finest_of[t]));
-                br_put_shown(d, "%s",
-                             br_numbers_text(o->numbers->column[line->axis], line->finest_of[t],
-                                             (char[32]){0}));
-                BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
-                             br_number(g->asymptotic), br_number(br_gci_limited(g, o->formal)),
-                             br_text(br_sequence_text(g->sequence)));
-            }
-        }
+    const struct br_case *c = &line->observed;
+    put_line(d, o, of, line, BR_VARIES);
+    BR_PUT_ESTIMATE(d, "", &c->order, br_order_shown(d, &c->order), .key = "order",
+                    .heading = "order [95 %]");
+    BR_PUT(d, br_count(c->points), .key = "points", .flags = BR_VARIES);
+    BR_PUT(d, br_count(c->used), .key = "used", .flags = BR_VARIES);
+    BR_PUT(d, br_text(br_case_note(c, (char[BR_CASE_NOTE]){0})), .key = "note",
+           .flags = BR_FILES_ONLY | BR_WRAP);
+}
+
+static void put_joint_fit(struct br_document *d, const struct br_orders *o,
+                          const struct br_quantity_orders *of)
+{
+    const struct br_joint_fit *f = &of->joint;
+    br_put_row(d);
+    BR_PUT(d, br_text(br_quantity_of(o, of)->name), .key = "quantity");
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const char *key = axis == BR_AXIS_SPACE ? "order_h" : "order_k";
+        BR_PUT_ESTIMATE(d, br_format(d, "%s_", key), &f->order[axis],
+                        br_order_shown(d, &f->order[axis]), .key = key,
+                        .heading = br_format(d, "order in %s [95 %%]", br_axis_letters[axis]));
+    }
+    BR_PUT(d, br_number(f->c[BR_AXIS_SPACE].value), .key = "c_h", .heading = "C_h",
+           .format = "%.3e");
+    BR_PUT(d, br_number(f->c[BR_AXIS_TIME].value), .key = "c_k", .heading = "C_k",
+           .format = "%.3e");
+    BR_PUT(d, br_count(f->points), .key = "rows");
+    BR_PUT(d, br_number(f->misfit), .key = "misfit", .format = "%.2e");
+    BR_PUT(d, br_number(f->floor), .key = "floor", .format = "%.1e", .flags = BR_FILES_ONLY);
+}
+
+/* The limit of a value. line: NULL, of a grid, which has no index. */
+static void put_limit(struct br_document *d, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line)
+{
+    const struct br_grid_limit *limit = line ? &line->limits.limit : &of->limit;
+    const struct br_gci *g = line ? &line->limits.gci : NULL;
+    put_line(d, o, of, line, 0);
+    put_sequence(d, limit->sequence);
+    BR_PUT_ESTIMATE(d, "", &limit->value, br_interval_shown(d, &limit->value), .key = "limit");
+    BR_PUT(d, br_text("mixture of laws"), .key = "method", .flags = BR_FILES_ONLY);
+    if (!g)
+        return;
+    BR_PUT(d, br_number(g->order), .key = "p", .heading = "p of three", .format = "%.4f");
+    BR_PUT(d, br_number(g->fine.index), .key = "gci_fine", .heading = "GCI fine", .format = "%.3e");
+    BR_PUT(d, br_number(g->coarse.index), .key = "gci_coarse", .heading = "GCI coarse",
+           .format = "%.3e");
+    BR_PUT(d, br_number(g->asymptotic), .key = "asymptotic", .heading = "asymptotic ratio",
+           .format = "%.4f");
+    BR_PUT(d, br_number(g->fine.ratio), .key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_number(g->coarse.ratio), .key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_number(g->fine.limit), .key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_number(g->fine.relative), .key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY);
+    BR_PUT(d, br_number(g->fine.relative_extrapolated), .key = "e_ext", .format = "%.3e",
+           .flags = BR_FILES_ONLY);
+    br_hide(d, "of_three", NULL, br_text(br_sequence_text(g->sequence)));
+    BR_PUT(d, br_number(br_gci_limited(g, o->formal)), .key = "gci_limited",
+           .heading = "GCI, p limited", .format = "%.3e", .flags = BR_FILES_ONLY);
+}
+
+/* The limits of values. The grid convergence index is that of the three finest rows, relative as
+ * Celik et al. print it. */
+static void put_limits(struct br_document *d, const struct br_orders *o)
+{
+    const struct br_quantity_orders *end = o->of + o->count;
+    br_put_table(d, "limits", "Limits of values, and the grid convergence index", 0);
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        for (size_t l = 0; l < of->lines && br_quantity_of(o, of)->is_value; l++)
+            put_limit(d, o, of, &of->line[l]);
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        if (br_quantity_of(o, of)->is_value && of->lines > 1) /* one line has its limit above */
+            put_limit(d, o, of, NULL);
+    br_put_across(d);
+}
+
+/* The grid convergence index of three neighbouring sizes. */
+static void put_triple(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of, const struct br_orders_line *line,
+                       size_t triple)
+{
+    const struct br_gci *g = &line->limits.triple[triple];
+    put_line(d, o, of, line, BR_VARIES);
+    BR_PUT(d, br_number(line->finest_of[triple]), .key = "finest", .heading = "finest of three");
+    br_put_shown(
+        d, "%s",
+        br_numbers_text(o->numbers->column[line->axis], line->finest_of[triple], (char[32]){0}));
+    BR_PUT(d, br_number(g->order), .key = "p", .format = "%.4f");
+    BR_PUT(d, br_number(g->fine.index), .key = "gci_fine", .heading = "GCI fine", .format = "%.3e");
+    BR_PUT(d, br_number(g->asymptotic), .key = "asymptotic", .heading = "asymptotic ratio",
+           .format = "%.4f");
+    BR_PUT(d, br_number(br_gci_limited(g, o->formal)), .key = "gci_limited",
+           .heading = "GCI, p limited", .format = "%.3e");
+    put_sequence(d, g->sequence);
 }
 
 /* The sizes that the next digits need. */
-static void put_needed(struct br_document *d, const struct br_orders *o)
+static void put_needed(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of)
 {
     enum { DIGITS = 3 };
-    static const struct br_column columns[] = {
-        {.key = "quantity", .flags = BR_VARIES},
-        {.key = "what", .flags = BR_VARIES},
-        {.key = "wanted", .heading = "at most", .format = "%.0e"},
-        {.key = "column", .flags = BR_FOR_PROGRAMS},
-        {.key = "size", .heading = "needs"},
-    };
-    BR_TABLE(d, "needed", "Needed for smaller errors, if the order stays", 0, columns);
-    for (size_t i = 0; i < o->count; i++) {
-        const struct br_orders_forecast f = br_orders_forecast_of(o, &o->of[i]);
-        double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
-        for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
-            const struct br_resolution_column *column = o->numbers->column[f.line->axis];
-            const double size = br_orders_needed(o, &f, wanted);
-            if (isnan(size))
-                break;
-            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
-                       br_text(br_quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
-                       br_number(wanted), br_text(column->name), br_number(size));
-            if (column->is_size) /* foretold: no more digits are known */
-                br_put_shown(d, "%s = %.4g", column->name, size);
-            else
-                br_put_shown(d, "%s = %s", column->name,
-                             br_numbers_text(column, size, (char[32]){0}));
-        }
+    const struct br_orders_forecast f = br_orders_forecast_of(o, of);
+    double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
+    for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
+        const struct br_resolution_column *column = o->numbers->column[f.line->axis];
+        const double size = br_orders_needed(o, &f, wanted);
+        if (isnan(size))
+            break;
+        br_put_row(d);
+        BR_PUT(d, br_text(br_quantity_of(o, of)->name), .key = "quantity", .flags = BR_VARIES);
+        BR_PUT(d, br_text(br_quantity_of(o, of)->is_value ? "GCI" : "error"), .key = "what",
+               .flags = BR_VARIES);
+        BR_PUT(d, br_number(wanted), .key = "wanted", .heading = "at most", .format = "%.0e");
+        br_hide(d, "column", NULL, br_text(column->name));
+        BR_PUT(d, br_number(size), .key = "size", .heading = "needs");
+        if (column->is_size) /* foretold: no more digits are known */
+            br_put_shown(d, "%s = %.4g", column->name, size);
+        else
+            br_put_shown(d, "%s = %s", column->name, br_numbers_text(column, size, (char[32]){0}));
     }
 }
 
@@ -587,21 +628,22 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
 {
     br_document_begin(d, "orders", "beamrate orders", 2, caption);
 
+    const struct br_quantity_orders *end = o->of + o->count;
     size_t cached = 0;
     for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
         const struct br_quantity_orders *of = &o->of[i];
         const struct br_orders_line *line =
             of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
-        bool first = true;
+        br_put_list(d, " ", "; ");
         br_put_answer(d, "%s:", br_quantity_of(o, of)->name);
         if (!line && !of->flag) /* of a grid the answer says so */
-            br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
+            br_put_item(d, "no order: fewer than three sizes");
         if (line && br_quantity_of(o, of)->is_value)
-            say_limit(d, o, of, &first);
-        say_orders(d, o, of, &first);
-        say_next(d, o, of, &first);
+            say_limit(d, o, of);
+        say_orders(d, o, of);
+        say_next(d, o, of);
         if (br_quantity_of(o, of)->window)
-            br_put_more(d, "%srows by hand: %s", separator(&first), br_quantity_of(o, of)->window);
+            br_put_item(d, "rows by hand: %s", br_quantity_of(o, of)->window);
         br_put_more(d, ".");
         if (br_joint_describes(&of->joint) && of->joint.left_out)
             say_cells_left_out(d, o, of);
@@ -620,7 +662,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (br_orders_costs_differ(o) && growth[axis].value >= 0.1 && growth[axis].low > 0 &&
             br_order_determined(&growth[axis]))
             br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
-                          br_order_text(&growth[axis], (char[64]){0}, 64));
+                          br_order_shown(d, &growth[axis]));
     say_missing(d, o);
     if (o->tied)
         br_put_answer(d,
@@ -635,117 +677,36 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         put_rows(d, o, i, i + MOST_BESIDE < o->count ? i + MOST_BESIDE : o->count,
                  BR_FOR_PEOPLE | BR_LONG);
 
-    static const struct br_column orders_columns[] = {
-        {.key = "quantity", .flags = BR_VARIES},
-        {.key = "in", .flags = BR_VARIES},
-        {.key = "at", .flags = BR_VARIES},
-        {.key = "order", .heading = "order [95 %]"},
-        {.key = "low", .flags = BR_FOR_PROGRAMS},
-        {.key = "high", .flags = BR_FOR_PROGRAMS},
-        {.key = "points", .flags = BR_VARIES},
-        {.key = "used", .flags = BR_VARIES},
-        {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
-    };
     const bool told = !br_orders_is_grid(o) && o->count <= MOST_NAMED; /* by the answers */
     bool any = false;
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++)
-            any |= isfinite(o->of[i].line[l].observed.order.value);
-    BR_TABLE(d, "orders", "Orders along lines",
-             BR_MAIN | (any ? told ? BR_FILES_ONLY : 0 : BR_FOR_PROGRAMS), orders_columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++) {
-            const struct br_orders_line *line = &o->of[i].line[l];
-            const struct br_case *c = &line->observed;
-            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
-                       br_text(br_axis_letters[line->axis]), br_text(line->at));
-            put_order(d, &c->order);
-            BR_PUT_CELLS(d, br_count(c->points), br_count(c->used),
-                         br_text(br_case_note(c, (char[BR_CASE_NOTE]){0})));
-        }
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        for (size_t l = 0; l < of->lines; l++)
+            any |= isfinite(of->line[l].observed.order.value);
+    br_put_table(d, "orders", "Orders along lines",
+                 BR_MAIN | (any ? told ? BR_FILES_ONLY : 0 : BR_FOR_PROGRAMS));
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        for (size_t l = 0; l < of->lines; l++)
+            put_order(d, o, of, &of->line[l]);
     br_put_across(d);
 
-    static const struct br_column joint_columns[] = {
-        {.key = "quantity"},
-        {.key = "order_h", .heading = "order in h [95 %]"},
-        {.key = "order_h_low", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_h_high", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_k", .heading = "order in k [95 %]"},
-        {.key = "order_k_low", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_k_high", .flags = BR_FOR_PROGRAMS},
-        {.key = "c_h", .heading = "C_h", .format = "%.3e"},
-        {.key = "c_k", .heading = "C_k", .format = "%.3e"},
-        {.key = "rows"},
-        {.key = "misfit", .format = "%.2e"},
-        {.key = "floor", .format = "%.1e", .flags = BR_FILES_ONLY},
-    };
-    BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, joint_columns);
-    for (size_t i = 0; i < o->count; i++) {
-        const struct br_joint_fit *f = &o->of[i].joint;
-        if (!f->converged)
-            continue;
-        BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name));
-        for (int axis = 0; axis < BR_AXES; axis++)
-            put_order(d, &f->order[axis]);
-        BR_PUT_CELLS(d, br_number(f->c[BR_AXIS_SPACE].value), br_number(f->c[BR_AXIS_TIME].value),
-                     br_count(f->points), br_number(f->misfit), br_number(f->floor));
-    }
+    br_put_table(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0);
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        if (of->joint.converged)
+            put_joint_fit(d, o, of);
     br_put_across(d);
 
-    /* The limits of values. The grid convergence index is that of the three finest rows, relative
-     * as Celik et al. print it. */
-    static const struct br_column limits_columns[] = {
-        {.key = "quantity"},
-        {.key = "in", .flags = BR_VARIES},
-        {.key = "at", .flags = BR_VARIES},
-        {.key = "sequence", .flags = BR_VARIES},
-        {.key = "limit"},
-        {.key = "low", .flags = BR_FOR_PROGRAMS},
-        {.key = "high", .flags = BR_FOR_PROGRAMS},
-        {.key = "method", .flags = BR_FILES_ONLY},
-        {.key = "p", .heading = "p of three", .format = "%.4f"},
-        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
-        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
-        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
-        {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
-        {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
-        {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
-        {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "of_three", .flags = BR_FOR_PROGRAMS},
-        {.key = "gci_limited",
-         .heading = "GCI, p limited",
-         .format = "%.3e",
-         .flags = BR_FILES_ONLY},
-    };
-    BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, limits_columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines && br_quantity_of(o, &o->of[i])->is_value; l++) {
-            const struct br_orders_line *line = &o->of[i].line[l];
-            const struct br_grid_limit *limit = &line->limits.limit;
-            const struct br_gci *g = &line->limits.gci;
-            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name),
-                       br_text(br_axis_letters[line->axis]), br_text(line->at),
-                       br_text(br_sequence_text(limit->sequence)));
-            put_limit(d, limit);
-            BR_PUT_CELLS(
-                d, br_number(g->order), br_number(g->fine.index), br_number(g->coarse.index),
-                br_number(g->asymptotic), br_number(g->fine.ratio), br_number(g->coarse.ratio),
-                br_number(g->fine.limit), br_number(g->fine.relative),
-                br_number(g->fine.relative_extrapolated), br_text(br_sequence_text(g->sequence)),
-                br_number(br_gci_limited(g, o->formal)));
-        }
-    for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
-        if (br_quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {
-            const struct br_grid_limit *limit = &o->of[i].limit;
-            BR_PUT_ROW(d, br_text(br_quantity_of(o, &o->of[i])->name), br_text("h and k"),
-                       br_text(""), br_text(br_sequence_text(limit->sequence)));
-            put_limit(d, limit);
-        }
-    br_put_across(d);
+    put_limits(d, o);
 
-    put_triples(d, o);
-    put_needed(d, o);
+    br_put_table(d, "triples", "Grid convergence index of three neighbouring sizes", 0);
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        for (size_t l = 0; l < of->lines; l++)
+            for (size_t t = 0; of->line[l].limits.triples > 1 && t < of->line[l].limits.triples;
+                 t++)
+                put_triple(d, o, of, &of->line[l], t);
+
+    br_put_table(d, "needed", "Needed for smaller errors, if the order stays", 0);
+    for (const struct br_quantity_orders *of = o->of; of < end; of++)
+        put_needed(d, o, of);
     if (br_orders_costs_differ(o))
         put_costs(d, o->numbers);
     for (size_t i = 0; i < o->count; i++)

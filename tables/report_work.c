@@ -8,21 +8,17 @@
 #include "tables/report_cells.h"
 #include "tables/reports.h"
 
-enum { TEXT = 64 };
-
 /* "0.12 s"; a cost without a unit is a number of something: "4225 dofs". */
-static const char *cost_text(const struct br_work_precision *w, double cost, char text[TEXT])
+static const char *cost_text(struct br_document *d, const struct br_work_precision *w, double cost)
 {
-    snprintf(text, TEXT, *w->cost_unit ? "%.3g %.30s" : "%.8g %.30s", cost,
-             *w->cost_unit ? w->cost_unit : w->cost);
-    return text;
+    return br_format(d, *w->cost_unit ? "%.3g %.30s" : "%.8g %.30s", cost,
+                     *w->cost_unit ? w->cost_unit : w->cost);
 }
 
 /* "1e-3": a power of ten. */
-static const char *power_text(double power, char text[TEXT])
+static const char *power_text(struct br_document *d, double power)
 {
-    snprintf(text, TEXT, "1e%.0f", log10(power));
-    return text;
+    return br_format(d, "1e%.0f", log10(power));
 }
 
 static const char *tie_text(const struct br_work_precision *w)
@@ -53,14 +49,13 @@ static void answer_digit(struct br_document *d, const struct br_work_precision *
 {
     const struct cheapest c = find_cheapest(w, target);
     const struct br_work_point *best = &w->point[c.best], *next = &w->point[c.next];
-    char power[TEXT], cost[TEXT], other[TEXT];
     br_put_answer(d, "%s%s to %s%s%s: %s, %s, %s", several ? w->quantity : "",
-                  several ? ": cheapest" : "Cheapest", power_text(target, power),
-                  c.tied ? ", " : "", c.tied ? tie_text(w) : "", w->program[best->program].name,
-                  best->label, cost_text(w, best->cost, cost));
+                  several ? ": cheapest" : "Cheapest", power_text(d, target), c.tied ? ", " : "",
+                  c.tied ? tie_text(w) : "", w->program[best->program].name, best->label,
+                  cost_text(d, w, best->cost));
     if (c.next < w->points)
         br_put_more(d, "; %s: %s, %s%s%s.", c.tied ? "and" : "next", w->program[next->program].name,
-                    c.tied ? next->label : "", c.tied ? ", " : "", cost_text(w, next->cost, other));
+                    c.tied ? next->label : "", c.tied ? ", " : "", cost_text(d, w, next->cost));
     else
         br_put_more(d, w->programs > 1 ? "; no other one reaches it." : ".");
 }
@@ -118,40 +113,39 @@ static void put_digits(struct br_document *d, const struct br_work_precision *w)
 static void answer_program(struct br_document *d, const struct br_work_precision *w,
                            const struct br_work_program *p)
 {
-    char text[2 * TEXT], power[TEXT];
     const bool grows = isfinite(p->growth.value), tenth = isfinite(p->tenth.value);
     if (!grows && !tenth && isnan(p->needed.value))
         return;
     br_put_answer(d, "%s:", p->name);
+    br_put_list(d, " ", ", ");
     if (grows)
-        br_put_more(d, " %s grows like %s^-%s", w->cost, br_axis_letters[p->axis],
-                    br_order_text(&p->growth, text, TEXT));
+        br_put_item(d, "%s grows like %s^-%s", w->cost, br_axis_letters[p->axis],
+                    br_order_shown(d, &p->growth));
     if (tenth)
-        br_put_more(d, "%s a tenth of the error costs %s times as much", grows ? "," : "",
-                    br_interval_text(&p->tenth, text, sizeof text));
+        br_put_item(d, "a tenth of the error costs %s times as much",
+                    br_interval_shown(d, &p->tenth));
     if (isfinite(p->needed.value))
-        br_put_more(d, "%s %s would cost %s %s (%s)", grows || tenth ? "," : "",
-                    power_text(p->wanted, power), br_interval_text(&p->needed, text, sizeof text),
-                    *w->cost_unit ? w->cost_unit : w->cost, p->at);
+        br_put_item(d, "%s would cost %s %s (%s)", power_text(d, p->wanted),
+                    br_interval_shown(d, &p->needed), *w->cost_unit ? w->cost_unit : w->cost,
+                    p->at);
     br_put_more(d, ".");
 }
 
 static void put_growth(struct br_document *d, const struct br_work_precision *w)
 {
-    char text[2 * TEXT];
     for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
         br_put_row(d);
         BR_PUT(d, br_text(w->quantity), .key = "quantity", .flags = BR_VARIES);
         BR_PUT(d, br_text(p->name), .key = "program");
         BR_PUT(d, br_text(p->axis < BR_AXES ? br_axis_letters[p->axis] : NULL), .key = "in",
                .flags = BR_VARIES);
-        BR_PUT_ESTIMATE(d, &p->growth, br_order_text(&p->growth, text, TEXT), .key = "growth",
+        BR_PUT_ESTIMATE(d, "growth_", &p->growth, br_order_shown(d, &p->growth), .key = "growth",
                         .heading = "cost grows like 1/size to the power");
-        BR_PUT_ESTIMATE(d, &p->tenth, br_interval_text(&p->tenth, text, sizeof text),
-                        .key = "tenth", .heading = "a tenth of the error costs, times");
+        BR_PUT_ESTIMATE(d, "tenth_", &p->tenth, br_interval_shown(d, &p->tenth), .key = "tenth",
+                        .heading = "a tenth of the error costs, times");
         BR_PUT(d, br_number(p->wanted), .key = "wanted", .format = "%.0e");
-        BR_PUT_ESTIMATE(d, &p->needed, br_interval_text(&p->needed, text, sizeof text),
-                        .key = "needed", .heading = "which would cost", .unit = w->cost_unit);
+        BR_PUT_ESTIMATE(d, "needed_", &p->needed, br_interval_shown(d, &p->needed), .key = "needed",
+                        .heading = "which would cost", .unit = w->cost_unit);
         BR_PUT(d, br_text(*p->at ? p->at : NULL), .key = "at");
         BR_PUT(d, br_text(*p->starts ? p->starts : NULL), .key = "mostly_start_up_to",
                .heading = "mostly start up to", .flags = BR_VARIES);
@@ -160,14 +154,13 @@ static void put_growth(struct br_document *d, const struct br_work_precision *w)
 
 static void say_troubles(struct br_document *d, const struct br_work_precision *w)
 {
-    char cost[TEXT];
     for (const struct br_work_program *p = w->program; p < w->program + w->programs; p++) {
         if (p->failed)
             br_put_answer(d, "%s: %zu of %zu runs without a result, the first at %s: %s.", p->name,
                           p->failed, p->failed + p->points, p->first, p->failure);
         if (*p->starts)
             br_put_answer(d, "%s: up to %s its %s is mostly its start, %s.", p->name, p->starts,
-                          w->cost, cost_text(w, p->start, cost));
+                          w->cost, cost_text(d, w, p->start));
         if (*p->odd)
             br_put_answer(d,
                           "%s: the %s at %s is far from the line of the others: no part of the "
@@ -193,15 +186,13 @@ static void put_runs(struct br_document *d, const struct br_work_precision *w)
 void br_report_work(const struct br_work_precision *works, size_t count, const char *machine,
                     struct br_document *d)
 {
-    char title[200];
     br_document_begin(d, "trade", "beamrate trade of programs", 1, "What a digit costs");
     for (size_t i = 0; i < count; i++)
         answer_digits(d, &works[i], count);
     say_troubles(d, works);
     for (size_t i = 0; i < works->programs && count == 1; i++)
         answer_program(d, works, &works->program[i]);
-    snprintf(title, sizeof title, "Cheapest to an error, by %.100s", works->cost);
-    br_put_table(d, "cheapest", title, 0);
+    br_put_table(d, "cheapest", br_format(d, "Cheapest to an error, by %.100s", works->cost), 0);
     for (size_t i = 0; i < count; i++)
         put_digits(d, &works[i]);
     br_put_table(d, "growth", "How costs grow, and what more digits cost if both orders stay", 0);

@@ -97,9 +97,9 @@ machine "$1"
 starts 0 0 'everything is there'
 
 made pkg-config <<'END'
-[ "$2" = fish ] # which has a module of its own
+[ "$2" = jq ] # which has a module of its own
 END
-machine "$1" fish
+machine "$1" jq
 starts 0 6 'a program whose module only is there' test
 made pkg-config <<'END'
 exit 1
@@ -123,11 +123,11 @@ printf '%s\n' libgsl-dev libcmocka-dev >"$work/to_be_had"
 starts 0 8 'needed packages beside an optional one that is not to be had' test
 starts 0 0 'the same again' test
 
-machine "$1" fish
-mkdir "$work/tree/build" && echo fish-common >"$work/tree/build/not-installed"
-echo fish >"$work/to_be_had"
+machine "$1" jq
+mkdir "$work/tree/build" && echo jq-common >"$work/tree/build/not-installed"
+echo jq >"$work/to_be_had"
 starts 0 4 'a package whose name begins one that was given up' test
-grep -q '^fish$' "$work/installed" || failures=$((failures + 1))
+grep -q '^jq$' "$work/installed" || failures=$((failures + 1))
 
 machine "$1" libgsl-dev
 starts 3 4 'a needed package is not to be had'

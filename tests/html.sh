@@ -32,7 +32,7 @@ bin/beamrate run example1 --n 4 --k 0.1 --check --quiet --out run
 if command -v python3 >/dev/null; then
     page() { python3 "$BEAMRATE_DATA/tests/html_page.py" "$@"; }
     title="&lt;script&gt;alert(1)&lt;/script&gt; &quot;q&quot; 's' \\u202e &lt;b id=gpDot&gt;"
-    page two $((6 * pictures)) "<title>beamrate study: 2 reports</title>" "<h2>$title</h2>"
+    page two $((6 * pictures)) "<title>beamrate study: 2 reports</title>" "<h2>$title</h2>" "<h2>$title: error at the tip</h2>"
     page bare 0 "<title>$title</title>"
     page missing 0 "<code>gnuplot example2-h.gp</code>"
     page trade 0 "<title>beamrate trade: 3 reports</title>"

@@ -29,7 +29,7 @@ static void report(const struct heard *h, const char *name, struct br_document *
 static void draw_curve(const char *stem, struct br_figure *f)
 {
     BR_SAY(f->stem, "%s", stem);
-    br_panel_add(f, "x", "y");
+    br_panel_add(f, false, "x", "y");
     struct br_series *s = br_series_add(f, BR_PEN_LINE, "line");
     br_point_add(s, 0, 0, NULL);
     br_point_add(s, 1, 1, NULL);

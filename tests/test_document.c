@@ -52,40 +52,33 @@ static const struct br_provenance provenance = {
 
 static void put_all_kinds(struct br_document *d)
 {
-    static const struct br_column columns[] = {
-        {.key = "text"},
-        {.key = "number", .heading = "a_number", .unit = "m^(3/2)", .format = "%.3e"},
-        {.key = "count"},
-        {.key = "truth"},
-        {.key = "empty"},
-        {.key = "hidden", .flags = BR_FOR_PROGRAMS},
-        {.key = "seen", .flags = BR_FOR_PEOPLE},
-        {.key = "long", .flags = BR_WRAP | BR_FILES_ONLY},
-    };
-    BR_TABLE(d, "all", "All & sundry", BR_MAIN, columns);
+    br_put_table(d, "all", "All & sundry", BR_MAIN);
     for (size_t i = 0; i < ROWS; i++) {
         br_put_row(d);
         BR_PUT(d, br_text(texts[i]), .key = "text");
-        BR_PUT(d, br_number(numbers[i]), .key = NULL);
+        BR_PUT(d, br_number(numbers[i]), .key = "number", .heading = "a_number", .unit = "m^(3/2)",
+               .format = "%.3e");
         br_put_mark(d, i == 0 ? "R" : NULL);
-        BR_PUT(d, br_count(counts[i]), .key = NULL);
-        BR_PUT(d, br_truth(i % 2), .key = NULL);
+        BR_PUT(d, br_count(counts[i]), .key = "count");
+        BR_PUT(d, br_truth(i % 2), .key = "truth");
         BR_PUT(d, br_nothing(), .key = "empty");
-        BR_PUT(d, br_number((double)i), .key = "seen");
+        br_hide(d, "hidden", NULL, br_text(i ? "only for programs" : NULL));
+        BR_PUT(d, br_number((double)i), .key = "seen", .flags = BR_FOR_PEOPLE);
         br_put_shown(d, "shown %zu", i);
-        BR_PUT(d, br_text(i ? "only for programs" : NULL), .key = "hidden");
-        char text[100];
-        snprintf(text, sizeof text, "many words %zu that a person gets on several lines of a cell",
-                 i);
-        BR_PUT(d, br_text(text), .key = "long");
+        BR_PUT(d,
+               br_text(
+                   br_format(d, "many words %zu that a person gets on several lines of a cell", i)),
+               .key = "long", .flags = BR_WRAP | BR_FILES_ONLY);
     }
 }
 
-/* Begins a table with one column. */
+/* Begins a table with one column, which has had a value. */
 static void put_x(struct br_document *d, const char *key, const char *title)
 {
-    static const struct br_column columns[] = {{.key = "x"}};
-    BR_TABLE(d, key, title, 0, columns);
+    br_put_table(d, key, title, 0);
+    br_put_row(d);
+    BR_PUT(d, br_text("taken back"), .key = "x", .unit = "m");
+    br_put_no_row(d);
 }
 
 /* A report of everything. */
@@ -465,19 +458,18 @@ TEST(formats_have_the_same_cells)
 /* A unit of the first column, and first columns that not all see. */
 static void build_first(struct br_document *d)
 {
-    static const struct br_column hidden[] = {{.key = "pc", .flags = BR_FOR_PROGRAMS},
-                                              {.key = "one", .unit = "m"},
-                                              {.key = "two", .unit = "s"}};
-    static const struct br_column seen[] = {
-        {.key = "pe", .flags = BR_FOR_PEOPLE}, {.key = "one", .unit = "m"}, {.key = "two"}};
-    static const struct br_column both[] = {{.key = "one", .unit = "m"}, {.key = "two"}};
+    static const char *const tables[] = {"t", "u", "v"};
+    static const char *const titles[] = {"T", "U", "V"};
     br_document_begin(d, "first", "f", 1, "First");
-    BR_TABLE(d, "t", "T", 0, hidden);
-    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
-    BR_TABLE(d, "u", "U", 0, seen);
-    BR_PUT_ROW(d, br_count(7), br_count(8), br_count(9));
-    BR_TABLE(d, "v", "V", 0, both);
-    BR_PUT_ROW(d, br_count(8), br_count(9));
+    for (int i = 0; i < 3; i++) {
+        br_put_table(d, tables[i], titles[i], 0);
+        br_put_row(d);
+        if (i < 2)
+            BR_PUT(d, br_count(7), .key = i ? "pe" : "pc",
+                   .flags = i ? BR_FOR_PEOPLE : BR_FOR_PROGRAMS);
+        BR_PUT(d, br_count(8), .key = "one", .unit = "m");
+        BR_PUT(d, br_count(9), .key = "two", .unit = i ? NULL : "s");
+    }
 }
 
 TEST(test_first_columns)
@@ -674,13 +666,14 @@ TEST(test_colours)
 /* Each case is built wrongly in its own way; what begins a table comes before it. */
 static void build_wrongly(struct br_document *d, size_t i)
 {
-    static const struct br_column same[] = {{.key = "a"}, {.key = "a", .heading = "another"}};
     switch (i) {
     case 0:
+        br_put_row(d);
         BR_PUT(d, br_count(1), .key = "b");
         break;
     case 1:
-        BR_PUT_CELLS(d, br_count(1), br_count(2));
+        br_put_no_row(d);
+        BR_PUT(d, br_count(1), .key = "b");
         break;
     case 2:
         br_put_table(d, "t", "T", 0);
@@ -698,10 +691,14 @@ static void build_wrongly(struct br_document *d, size_t i)
         br_put_row(d);
         break;
     case 5:
-        BR_TABLE(d, "u", "U", 0, same);
+        br_put_table(d, "u", "U", 0);
+        br_put_row(d);
+        BR_PUT(d, br_count(1), .key = "a");
+        BR_PUT(d, br_count(1), .key = "a", .heading = "another");
         break;
     case 6:
-        br_put_columns(d, same, 1);
+        br_put_note(d, "outside");
+        br_put_no_row(d);
         break;
     case 7:
         br_put_table(d, "u", "U", 0);
@@ -744,12 +741,12 @@ TEST(test_built_wrongly)
 {
     static const char *const messages[] = {
         "no cell for 'b'",
-        "no cell for 't'",
+        "no cell for 'b'",
         "no cell for 'second'",
         "no cell for 'x'",
         "a cell outside of a table, after 'outside'",
-        "two columns with the key 'a'",
-        "a column after the first row: 'a'",
+        "two values in a row for 'a'",
+        "a cell outside of a table, after 'outside'",
         "no key for programs: ''",
         "no key for programs: 'two words'",
         "no format of a number: '%s of it'",
@@ -775,6 +772,22 @@ TEST(test_built_wrongly)
         REFUSED(br_document_show(stderr, &d, 1, &err), BR_IO, "the report wrong was built wrongly");
         br_document_clear(&d);
     }
+}
+
+/* A row that is taken back leaves columns, but neither values nor their alignment. */
+TEST(test_row_is_taken_back)
+{
+    struct br_document d = {0};
+    br_document_begin(&d, "back", "f", 1, "c");
+    put_x(&d, "t", "T");
+    br_put_row(&d);
+    BR_PUT(&d, br_nothing(), .key = "x");
+    const struct br_document_table *t = d.block[0].table;
+    assert_int_equal(t->rows, 1);
+    assert_int_equal(t->columns, 1);
+    assert_false(br_document_is_shown(t, 0));
+    assert_int_equal(t->column[0].flags, 0);
+    br_document_clear(&d);
 }
 
 /* What rounds to zero has no sign, wherever numbers become text; all else stays. */

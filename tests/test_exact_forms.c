@@ -162,6 +162,37 @@ TEST(test_pulse)
     release(&s);
 }
 
+/* u'' + 0.1 k^2 u' + 2 k^2 u = load, k = pi/2, times sin(k x). A pulse as short as some 1e6 doubles
+ * near its time: their rounding, one for all of it at most, is the error. Two that cancel leave
+ * less than the rounding of each. */
+TEST(test_rounded_times)
+{
+    const double k = M_PI_2, width = 1e-9, damping = 0.05 * k * k;
+    const double omega = sqrt(2 * k * k - damping * damping);
+    struct br_scene scene = {.length = 1, .duration = 2, .density = 1};
+    scene.axial = (struct br_scene_field){.modelled = true, .stiffness = 2, .viscosity = 0.1};
+    scene.axial.load = br_test_load("sin(pi/2*x)*1e9*exp(-((t-1)*1e9)^2)");
+    struct solved s = solve(&scene, 1e-9);
+    const struct br_exact_report r = br_exact_report(s.exact, BR_AXIAL);
+    check_closed(
+        &s, 1, 2, 10, 1,
+        &(struct expected){PART, u,
+                           text_of("sin(pi/2*x)*step(t-1)*%.17g*exp(-%.17g*(t-1))*sin(%.17g*(t-1))",
+                                   sqrt(M_PI) / omega, damping, omega),
+                           r.error.displacement});
+    AT_MOST(r.error.displacement, 0.29 * DBL_EPSILON / width * r.largest.displacement);
+    release(&s);
+    br_function_free(&scene.axial.load.term[0].space);
+
+    struct br_exact *exact;
+    struct br_error err;
+    const struct br_exact_options modest = {.tolerance = 1e-9, .acceptable = 1e-3};
+    scene.axial.load = br_test_load("cos(x*t)*exp(-((t-1)*1e9)^2)*(1-2*((t-1)*1e9)^2)*1e16");
+    REFUSED(br_exact_create(&exact, &scene, &modest, &err), BR_NOT_FINITE,
+            "the load changes faster than times in double precision can resolve");
+    br_scene_clear(&scene);
+}
+
 /* ---- the paper's examples ---- */
 
 /* Over a long stick the modes must go on adding up to the tip that is held. */

@@ -19,7 +19,7 @@
 /* Every pen, a flag, gaps, an upper axis, slopes, a mark, texts with quotes. */
 static void fill_curves(struct br_figure *f)
 {
-    struct br_panel *p = br_panel_add(f, "time step k (s)", "isn't (m)");
+    struct br_panel *p = br_panel_add(f, false, "time step k (s)", "isn't (m)");
     p->log_x = p->log_y = true;
     BR_SAY(p->title, "it's {/:Italic n}");
     br_series_add(f, BR_PEN_SIGNS, "in the key alone"); /* no block of the data */
@@ -80,14 +80,14 @@ static void print_made(FILE *out)
 TEST(test_hues)
 {
     struct br_figure f = {0};
-    struct br_panel *p = br_panel_add(&f, "x", "y");
+    struct br_panel *p = br_panel_add(&f, false, "x", "y");
     for (size_t i = 0; i < 8; i++) {
         const struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "%zu", i);
         assert_true(i >= BR_HUES || s->style == i + 1);
         assert_int_equal(s->pen, i < BR_HUES ? BR_PEN_CURVE : BR_PEN_OTHERS);
         br_point_add(p->series[i], 1, 1, NULL);
     }
-    br_panel_add(&f, "x", "y");
+    br_panel_add(&f, false, "x", "y");
     assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->style, 4);
     br_figure_clear(&f);
 }
@@ -98,7 +98,7 @@ TEST(test_hues)
 static void print_powers(FILE *out)
 {
     struct br_figure f = {.stem = "powers"};
-    struct br_panel *p = br_panel_add(&f, "x", "y");
+    struct br_panel *p = br_panel_add(&f, false, "x", "y");
     p->log_x = p->log_y = true;
     for (size_t i = 0; i < 8; i++) {
         struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "%zu", i);
@@ -117,7 +117,7 @@ TEST(test_triangles)
 {
     static const double order[] = {2, 1, 1, 3}, factor[] = {1, 1, 0.5, 1e-2};
     struct br_figure f = {0};
-    struct br_panel *p = br_panel_add(&f, "h", "error");
+    struct br_panel *p = br_panel_add(&f, false, "h", "error");
     p->log_x = p->log_y = true;
     for (int line = 0; line < 4; line++) {
         struct br_series *s = br_series_add(&f, BR_PEN_LINE, "%d", line);
@@ -144,7 +144,7 @@ TEST(test_triangles)
     }
     br_figure_clear(&f);
     f = (struct br_figure){0};
-    p = br_panel_add(&f, "h", "error");
+    p = br_panel_add(&f, false, "h", "error");
     p->log_x = p->log_y = true;
     for (int line = 0; line < 40; line++) { /* everywhere */
         struct br_series *s = br_series_add(&f, BR_PEN_LINE, "%d", line);
@@ -215,7 +215,7 @@ TEST(test_gap)
 {
     static char svg[SVG];
     struct br_figure f = {.stem = "made"};
-    br_panel_add(&f, "x", "y");
+    br_panel_add(&f, false, "x", "y");
     struct br_series *s = br_series_add(&f, BR_PEN_LINE, "one");
     for (int i = 0; i < 5; i++)
         br_point_add(s, i, i == 2 ? (double)NAN : i, NULL);
@@ -242,7 +242,7 @@ TEST(test_no_memory)
     for (long i = 0; failed; i++) {
         struct br_figure f = {0};
         br_allocation_fails_at(i);
-        struct br_panel *p = br_panel_add(&f, "x", "y");
+        struct br_panel *p = br_panel_add(&f, false, "x", "y");
         br_point_add(br_series_add(&f, BR_PEN_LINE, "one"), 1, 1, NULL);
         br_point_add(&p->top, 1, 1, NULL);
         br_allocation_fails_at(-1);

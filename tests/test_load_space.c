@@ -122,7 +122,8 @@ TEST(test_jump_on_level)
     static const struct {
         const char *scheme, *said, *remedy;
     } by[] = {
-        {"euler", " 20 % of its impulse", "(t > 0.95), not step(t - 0.95)\n--k T/105  #"},
+        {"euler", " 20 % of its impulse",
+         "(t > 0.95) or (t <= 0.95), not step(t - 0.95)\n--k T/105  #"},
         {"bdf2", " 20 % of its impulse", "(t > 0.95)"},
         {"trbdf2", " 10 % of its impulse", "--k T/105  #"},
         {"adaptive", NULL, NULL},

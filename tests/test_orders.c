@@ -276,6 +276,32 @@ TEST(test_corners_of_a_floor)
     assert_true(left_out > 0);
 }
 
+static double floor_along_h(double h, double k)
+{
+    return k > 0 ? fmax(h * h, pow(4, -12)) : NAN;
+}
+
+static double floor_along_k(double h, double k)
+{
+    return floor_along_h(k, h);
+}
+
+/* A floor that only the longer lines can name has their name. */
+TEST(test_name_of_a_floor)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        find(turned ? grid_of(3, 16, floor_along_k) : grid_of(16, 3, floor_along_h), NULL);
+        for (size_t row = 0; row < 48; row++) {
+            const struct br_row_point *at = &found.orders.of[0].point[turned][row];
+            const enum br_flag flag = at->line->observed.point[at->index].flag;
+            if (at->index > 12)
+                assert_int_equal(flag, BR_FLAG_ROUND_OFF);
+            else if (at->index < 10)
+                assert_int_equal(flag, BR_FLAG_NONE);
+        }
+    }
+}
+
 static double larger_of_both(double h, double k)
 {
     return fmax(h * h, k * k);

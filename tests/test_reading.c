@@ -230,6 +230,23 @@ static const struct {
     {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
     {"{\"h\":1}\n{\"h\":.5}\n", ":t:2: found no valid JSON"},
+    /* names of words above their columns */
+    {"Cycle Mesh size    L2-Error\n    0    0.3025 1.24e-04    -\n    1    0.1513 9.65e-06 3.7\n",
+     "Cycle|Mesh size|L2-Error|~|\n0|0.3025|1.24e-04|-|\n1|0.1513|9.65e-06|3.7|\n"},
+    {"n  L2 error  H(curl) error\n8  1.21e-02  1.0e-01\n16 3.02e-03  5.0e-02\n",
+     "n|L2 error|H(curl) error|\n8|1.21e-02|1.0e-01|\n16|3.02e-03|5.0e-02|\n"},
+    {"#   Mesh size  L2 error\n#      0.3025  1.24e-04    -\n#      0.1513  9.65e-06  3.7\n",
+     "Mesh size|L2 error|~|\n0.3025|1.24e-04|-|\n0.1513|9.65e-06|3.7|\n"},
+    {"N err  rate\n1000 1.0e-2 -\n2000 2.5e-3 2.0\n",
+     "N|err|rate|\n1000|1.0e-2|-|\n2000|2.5e-3|2.0|\n"},
+    {"h L2 error\n0.1 1e-2\n0.05 2e-3\n", ":t:2: found fewer than the 3 fields of the heading"},
+    {"h  a b\n0.1  1e-2\n0.05    2e-3\n", "h|a b|\n0.1|1e-2|\n0.05|2e-3|\n"},
+    {"h  a  b\n0.1  1e-2\n0.05    2e-3\n", ":t:2: found fewer than the 3 fields of the heading"},
+    /* names and numbers in turn, the name of a log */
+    {"Euler\ndt 0.2  error 0.4  rate 1\ndt 0.1  error 0.2  rate 1\n",
+     "dt|error|rate|\n0.2|0.4|1|\n0.1|0.2|1|\n1 title\n"},
+    {"P1 8 fine 0.1\nP2 16 fine 0.02\n", "~|~|~|~|\nP1|8|fine|0.1|\nP2|16|fine|0.02|\n"},
+    {"DEAL::n e\nDEAL::8 1\nDEAL:2d::16 .2\nDEAL::\n", "n|e|\n8|1|\n16|.2|\n"},
 };
 
 static void add_rows(char *text, size_t size, const struct br_fields *f)
@@ -274,6 +291,8 @@ static const struct {
     {"-1.5D-3", '.', -1.5e-3, NAN},
     {"0.25-103", '.', 0.25e-103, NAN},
     {"1.5-003", '.', 1.5e-3, NAN},
+    {"~0.04", '.', 0.04, NAN},
+    {"~", '.', NAN, NAN},
     {"2.q+2", '.', 200, NAN},
     {"1,5e-3", ',', 1.5e-3, NAN},
     {"\u22121.5", '.', -1.5, NAN},

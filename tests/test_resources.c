@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/march_state.h"
 #include "support.h"
 
 /* Valgrind's and the sanitizers' allocators tell nothing. */
@@ -165,10 +166,17 @@ TEST(test_refused)
                                    .steps = steps,
                                    .n_count = 2,
                                    .k_count = 2};
-    MUST(br_fit_together(&study, 1, 3 * br_march_bytes(&o), &err));
-    REFUSED(br_fit_together(&study, 1, 2.9 * br_march_bytes(&o), &err), BR_NO_MEMORY,
+    const double levels = 30 * sizeof(size_t); /* the list of time levels of both k */
+    MUST(br_fit_together(&study, 1, 3 * br_march_bytes(&o) + levels, &err));
+    REFUSED(br_fit_together(&study, 1, 3 * br_march_bytes(&o) + levels / 2, &err), BR_NO_MEMORY,
             "5 marches at once take about");
     REFUSED(br_fit_together(&study, 1, NAN, &err), BR_NO_MEMORY, "5 marches");
+    struct br_study finer = study; /* its axial field may be ahead, by a path a step */
+    finer.reference.steps = 20000000;
+    const double paths = 4e6 * sizeof(struct br_tip_path);
+    MUST(br_fit_together(&finer, 1, 3 * br_march_bytes(&o) + levels + paths, &err));
+    REFUSED(br_fit_together(&finer, 1, 3 * br_march_bytes(&o) + levels + 0.99 * paths, &err),
+            BR_NO_MEMORY, "5 marches");
 
     struct br_warnings w = {0};
     o.n = 100000000000000;

@@ -434,7 +434,7 @@ static void say_program(const char *frame, const char *word, char *answer, size_
 TEST(commands_and_values_of_options)
 {
     try_place(say_program, "help %s", 12, false);
-    try_place(say_program, "completions %s", 3, false);
+    try_place(say_program, "completions %s", 1, false);
     try_place(say_program, "extremes %s", 3, false);
     try_place(say_program, "study example1 --norm %s", 3, false);
     try_place(say_program, "study example1 --format %s", 5, false);

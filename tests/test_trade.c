@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Named methods, trials and trades: choosing on made-up trials, and errors that are a study's. */
+#include <malloc.h>
 #include <math.h>
 #include <string.h>
 
@@ -281,6 +282,27 @@ TEST(test_printed)
                          t->trial[i].at.steps == t->trial[j].at.steps);
     }
     assert_int_equal(marked, 3);
+    drop(t);
+    br_scene_clear(&scene);
+}
+
+/* More tolerances than steps; their trials have room. */
+TEST(test_many_tolerances)
+{
+    struct br_scene scene = br_test_bundled("example2");
+    const size_t one[] = {10};
+    double tolerance[40];
+    for (size_t i = 0; i < 40; i++)
+        tolerance[i] = pow(2, -(double)i - 3);
+    struct br_trade *t = laid_out(&scene, "adaptive",
+                                  &(struct br_trade_grid){.n = one,
+                                                          .steps = one,
+                                                          .tolerance = tolerance,
+                                                          .n_count = 1,
+                                                          .step_count = 1,
+                                                          .tolerances = 40});
+    assert_int_equal(t->count, 40);
+    assert_true(malloc_usable_size(t->trial) >= t->count * sizeof *t->trial);
     drop(t);
     br_scene_clear(&scene);
 }

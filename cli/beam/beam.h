@@ -23,17 +23,14 @@ const char *br_beam_standard(const struct br_option *row, char text[BR_OPTION_TE
  * two exclude each other. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_beam_check_options(struct br_options *options, struct br_error *err);
 
-/* ---- the documentation and the completions, made from commands, options and registries ---- */
+/* ---- the documentation, made from commands, options and registries ---- */
 
 /* The registries whose rows are chosen by name, with their headings; returns their number. */
 enum { BR_REGISTRIES = BR_METHOD_FIELDS + 3 };
 size_t br_registries(struct br_registry list[BR_REGISTRIES]);
 
-/* Writes the "man" page, docs/options.md ("markdown"), or the completions of "bash", "zsh" or
- * "fish" with the names of scenes, separated by blanks (NULL: none). */
-void br_write_language(FILE *out, const char *name, const char *scenes);
-
-extern const char *const br_beam_topics[];
-void br_beam_print_topic(const char *topic);
+/* The manual page, and docs/options.md. */
+void br_print_manual(FILE *out);
+void br_print_options_page(FILE *out);
 
 #endif

@@ -26,8 +26,7 @@ static enum br_status print_line(const char *name, size_t width, struct br_error
         for (const char *c = br_quoted(visible, sizeof visible, &br_for_text, name); *c; c++)
             left -= ((unsigned char)*c & 0xc0) != 0x80;
         printf("%s%*s", visible, left, "");
-        br_quote(stdout, &br_for_text, scene.title);
-        puts("");
+        br_print(stdout, &br_for_text, "%s\n", scene.title);
     }
     br_scene_clear(&scene);
     return failed ? err->status : BR_OK;
@@ -57,10 +56,8 @@ static enum br_status show(const char *name, struct br_error *err)
     if (!isatty(STDOUT_FILENO))
         fputs(text, stdout);
     else
-        for (char *rest = text; rest && *rest;) {
-            br_quote(stdout, &br_for_text, strsep(&rest, "\n"));
-            putchar('\n');
-        }
+        for (char *rest = text; rest && *rest;)
+            br_print(stdout, &br_for_text, "%s\n", strsep(&rest, "\n"));
     free(text);
     return BR_OK;
 }

@@ -7,7 +7,6 @@
 #include "cli/progress.h"
 #include "reference/printed.h"
 #include "study/grid/sweep.h"
-#include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 
 /* Study h of the cases in norm m. */
@@ -83,7 +82,8 @@ static enum br_status set_printed(const struct br_printed *printed, struct br_re
     return report->printed ? BR_OK : br_no_memory(err, "the printed values");
 }
 
-/* Starts a job's report in norm m. Its name ends with the norm, unless that is the default. */
+/* Starts a job's report in norm m. Name and caption end with the norm, unless that is the default.
+ */
 static enum br_status start_report(struct br_studies *r, const struct br_study_job *job, size_t i,
                                    size_t m, struct br_error *err)
 {
@@ -93,9 +93,14 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
     const bool usual = norm == br_norms[0];
     snprintf(w->name[m], sizeof w->name[m], "%s%s%s", job->name ? job->name : scene->name,
              usual ? "" : "-", usual ? "" : norm->name);
+    if (asprintf(&w->caption[m], "%s%s%s", job->caption ? job->caption : scene->title,
+                 usual ? "" : ": ", usual ? "" : norm->symbol) < 0) {
+        w->caption[m] = NULL;
+        return br_no_memory(err, "the studies");
+    }
     w->report[m] = (struct br_report){
         .name = w->name[m],
-        .caption = job->caption ? job->caption : scene->title,
+        .caption = w->caption[m],
         .study = study_of(r, i, m),
         .exact = r->cases > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .fitted = study_of(r, r->cases - r->jobs + i, m),
@@ -143,8 +148,10 @@ void br_studies_clear(struct br_studies *r)
     for (size_t i = 0; r->study && i < r->cases * r->request->norms; i++)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
-        for (size_t m = 0; m < r->request->norms; m++)
+        for (size_t m = 0; m < r->request->norms; m++) {
             br_report_clear(&r->work[i].report[m]);
+            free(r->work[i].caption[m]);
+        }
         br_grid_differences_clear(&r->work[i].compared);
         br_opened_scene_clear(&r->work[i].opened);
         free(r->work[i].steps);
@@ -159,12 +166,6 @@ void br_studies_estimate_cost(const struct br_studies *r, struct br_costs *work)
 {
     for (size_t h = 0; h < r->cases; h++)
         br_costs_add_study(work, study_of(r, h, 0));
-}
-
-enum br_status br_studies_check_memory(const struct br_studies *r, struct br_error *err)
-{
-    return br_ranks_size() == 1 ? br_fit_together(r->study, r->cases, br_memory_available(), err)
-                                : BR_OK;
 }
 
 /* ---- the marches, and what follows from them ---- */

@@ -22,6 +22,7 @@ struct br_study_work {
     size_t *steps; /* numbers of steps of the grid, ascending; owned */
     struct br_grid_differences compared;
     char name[BR_MOST_NORMS][512];          /* of the reports */
+    char *caption[BR_MOST_NORMS];           /* the same; owned */
     struct br_report report[BR_MOST_NORMS]; /* request.norms of them */
 };
 
@@ -43,9 +44,6 @@ enum br_status br_studies_prepare(struct br_studies *studies, const struct br_st
 void br_studies_clear(struct br_studies *studies);
 
 void br_studies_estimate_cost(const struct br_studies *studies, struct br_costs *work);
-
-/* Checks the memory of the studies, which march at once. */
-enum br_status br_studies_check_memory(const struct br_studies *studies, struct br_error *err);
 
 /* Marches all and finishes the reports. */
 enum br_status br_studies_compute(struct br_studies *studies, struct br_error *err);

@@ -38,7 +38,7 @@ static enum br_status run_jobs(const struct br_study_request *request, struct br
     if (!failed) {
         br_studies_estimate_cost(&r, &work);
         br_session_announce(session, &work);
-        failed = br_studies_check_memory(&r, err) || br_session_open(session, err) ||
+        failed = br_session_open(session, err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) ||
                  br_studies_compute(&r, err) || (writes && write_all(&r, err)) ||
                  br_studies_check_cells(&r, err);

@@ -56,14 +56,15 @@ static void print_methods(FILE *out)
     }
 }
 
-const char *const br_beam_topics[] = {"methods", "man", "markdown", NULL};
+static const char *const topics[] = {"methods", "man", "markdown", NULL};
 
-void br_beam_print_topic(const char *topic)
+static void print_topic(const char *topic)
 {
-    if (strcmp(topic, br_beam_topics[0]) == 0)
-        print_methods(stdout);
-    else
-        br_write_language(stdout, topic, NULL);
+    static void (*const print[])(FILE * out) = {print_methods, br_print_manual,
+                                                br_print_options_page};
+    for (size_t i = 0; topics[i]; i++)
+        if (strcmp(topic, topics[i]) == 0)
+            print[i](stdout);
 }
 
 const struct br_beam br_beam = {
@@ -74,6 +75,6 @@ const struct br_beam br_beam = {
     .end = br_ranks_end,
     .first = br_ranks_first,
     .size = br_ranks_size,
-    .topics = br_beam_topics,
-    .print_topic = br_beam_print_topic,
+    .topics = topics,
+    .print_topic = print_topic,
 };

@@ -251,10 +251,8 @@ static char *words_of(const struct br_session *s, const char *name)
     FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
     if (out)
         br_quote(out, &br_for_shell, name);
-    while (out && rest) {
-        fputs(" --set ", out);
-        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
-    }
+    while (out && rest)
+        br_print(out, &br_for_shell, " --set %s", strsep(&rest, "\n"));
     free(set);
     return out && fclose(out) == 0 ? text : NULL;
 }

@@ -14,10 +14,8 @@ void br_print_warnings(const char *scene, const struct br_warnings *warnings)
 {
     for (size_t i = 0; i < warnings->count; i++) {
         const struct br_warning *w = &warnings->list[i];
-        fputs("beamrate: warning: ", stderr);
-        br_quote(stderr, &br_for_text, scene);
-        fputs(*scene ? ": " : "", stderr);
-        br_quote(stderr, &br_for_text, w->text);
+        br_print(stderr, &br_for_text, "beamrate: warning: %s%s%s", scene, *scene ? ": " : "",
+                 w->text);
         if (w->more)
             fprintf(stderr, " (and so %zu more of these marches)", w->more);
         fprintf(stderr, "%s\n", w->remedy[0] ? "; remedy:" : "");

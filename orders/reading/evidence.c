@@ -125,6 +125,30 @@ static struct residual best_of_rates(const struct view *v, const struct br_role_
     return best;
 }
 
+/* Whether a column has the ratios of two errors each, within its digits: it says nothing of sizes.
+ */
+static bool has_ratios(const struct view *v, const struct br_role_column *c)
+{
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        const double *const e = v->roles->column[i].number;
+        size_t compared = 0;
+        bool are = may_have_errors(v, i);
+        struct pair p;
+        for (size_t at = 0; are && next_pair(v, &at, &p);) {
+            if (isnan(c->number[p.fine]))
+                continue;
+            const double ratio = fabs(e[p.coarse] / e[p.fine]);
+            const double digits = c->rounding[p.fine] + v->roles->column[i].rounding[p.coarse] +
+                                  v->roles->column[i].rounding[p.fine];
+            are = fabs(c->number[p.fine] / ratio - 1) <= 2 * digits;
+            compared++;
+        }
+        if (are && compared)
+            return true;
+    }
+    return false;
+}
+
 static void find_rates(struct view *v)
 {
     v->rates.all = v->rates.exact = v->rates.near = true;
@@ -134,8 +158,8 @@ static void find_rates(struct view *v)
             c->role == BR_ROLE_CASE)
             continue;
         const struct residual best = best_of_rates(v, c);
-        if (!best.compared || (!c->name && best.worst > 0)) /* without a name it may be a factor */
-            continue;
+        if (!best.compared || (!c->name && (best.worst > 0 || has_ratios(v, c))))
+            continue; /* without a name it may be a factor */
         v->rates.columns++;
         v->rates.compared = best.compared > v->rates.compared ? best.compared : v->rates.compared;
         v->rates.all &= best.worst <= 0;
@@ -254,20 +278,30 @@ static bool hardly_changes(const struct br_role_column *c)
     return c->most - c->least <= 0.2 * fabs(c->most);
 }
 
-/* Whether no error falls with these sizes, and one grows from each to the next. */
-static bool grow_all(const struct view *v)
+/* Whether a column changes by less than a factor of two, and hardly from its begin to its end: it
+ * comes to a limit. */
+static bool stays(const struct view *v, size_t column)
 {
-    bool grow = false;
+    const struct br_role_column *c = &v->roles->column[column];
+    return c->most < 2 * c->least && fabs(fall_of(v, column)) < 0.02;
+}
+
+/* 1: no error falls with these sizes, and one grows from each to the next; 0.5: only what has no
+ * name of an error does. */
+static double grow_all(const struct view *v)
+{
+    double grow = 0;
     for (size_t i = 0; i < v->roles->columns; i++) {
         const struct br_role_column *c = &v->roles->column[i];
         if (!may_have_errors(v, i) || c->least < 0 || c->is_value ||
             (c->is_whole && c->kind != BR_KIND_ERROR) ||
-            (hardly_changes(c) && c->kind != BR_KIND_ERROR) ||
+            (hardly_changes(c) && (c->kind != BR_KIND_ERROR || v->roles->wishes->values)) ||
             (c->by_hand && c->role != BR_ROLE_ERROR))
             continue;
         if (dips(v, i))
-            return false;
-        grow |= climbs(v, i);
+            return 0;
+        if (climbs(v, i))
+            grow = fmax(grow, c->kind == BR_KIND_ERROR ? 1 : 0.5);
     }
     return grow;
 }
@@ -362,7 +396,8 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     const struct br_resolution_column *s = candidate->size.states;
     const double d = candidate->size.dimension;
     find_rates(&v);
-    const bool rates = v.rates.columns, several = v.rates.compared > 1, grow = grow_all(&v),
+    const double grow = grow_all(&v);
+    const bool rates = v.rates.columns, several = v.rates.compared > 1,
                gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
                plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
                        !grows_in(&v, 3),
@@ -395,7 +430,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     candidate->agrees_with_rates = gives;
     candidate->misses_rates = rates && !gives;
     candidate->contradicts_rates = contradicts;
-    candidate->wrong_way = grow;
+    candidate->wrong_way = grow > 0;
 }
 
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
@@ -413,11 +448,11 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
         bool holds;
         double log_odds;
     } evidence[] = {
-        {named, 3.5},            /* its heading */
-        {of_another_kind, -5},   /* its heading is of a rate, a cost, a deviation or a degree */
-        {dips(&v, column), 1.5}, /* it falls with the sizes */
-        {climbs(&v, column) && c->is_whole && c->most > 1, -4}, /* it counts */
-        {hardly_changes(c), -2.5},                              /* it hardly changes */
+        {named, 3.5},          /* its heading */
+        {of_another_kind, -5}, /* its heading is of a rate, a cost, a deviation or a degree */
+        {dips(&v, column) && (named || !stays(&v, column)), 1.5}, /* it falls with the sizes */
+        {climbs(&v, column) && c->is_whole && c->most > 1, -4},   /* it counts */
+        {hardly_changes(c), -2.5},                                /* it hardly changes */
         {has_a_limit, -4},             /* it is a coefficient, and does not fall far */
         {c->least < 0 && !named, -9},  /* it has both signs */
         {c->numbers <= c->words, -99}, /* it has words */

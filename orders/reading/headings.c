@@ -244,17 +244,23 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     return BR_OK;
 }
 
-/* Gives the names of a list the case of their headings. */
-static void settle_case(const struct br_roles *r, char *list)
+/* Gives the names of a list the case of their headings, and takes units off: "flow (m/s)" is called
+ * "flow". */
+static void settle_names(const struct br_roles *r, char *list)
 {
     const char *item;
     size_t length;
     for (const char *rest = list; rest;) {
         rest = br_list_next(rest, &item, &length);
         const size_t found = br_roles_find_column(r, item, length);
-        const char *name = found == BR_NO_ROW ? NULL : r->column[found].name;
-        if (name && strlen(name) == length && strncasecmp(name, item, length) == 0)
-            memcpy(list + (item - list), name, length);
+        const struct br_role_column *c = found == BR_NO_ROW ? NULL : &r->column[found];
+        const size_t size = c && c->name ? strlen(c->name) : 0;
+        if (!size || size > length || !(is_called(c, item, length, strncasecmp)))
+            continue;
+        char *const to = list + (item - list);
+        memcpy(to, c->name, size);
+        memmove(to + size, to + length, strlen(to + length) + 1);
+        rest -= rest ? length - size : 0;
     }
 }
 
@@ -302,8 +308,8 @@ enum br_status br_roles_take_headings(struct br_roles *r, struct br_error *err)
         if (take_item(r, item, length, err))
             return err->status;
     }
-    settle_case(r, r->wishes->errors);
-    settle_case(r, r->wishes->values);
+    settle_names(r, r->wishes->errors);
+    settle_names(r, r->wishes->values);
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
         snprintf(c->position, sizeof c->position, "%zu", i + 1);

@@ -94,6 +94,28 @@ static long measure(struct layout *l)
     return l->gain[best];
 }
 
+/* Whether all rows, by words, have the names of the first one: "dt 0.25  error 0.078". */
+static bool have_names(struct layout *l)
+{
+    const struct br_token *first = NULL;
+    size_t rows = 0;
+    for (size_t i = 0; i < l->lines; i++) {
+        char *room =
+            first ? l->room : br_store_take(&l->fields->store, BR_ROOM(l->line[i].text), 1);
+        if (l->line[i].kind != BR_LINE_TEXT || !room || look_at(l, i, room).count != l->width)
+            continue;
+        for (size_t c = 0; c < l->width && first; c++)
+            if (strcmp(first[c].name, l->token[c].name) != 0)
+                return false;
+        struct br_token *const copy =
+            first ? NULL : br_store_take(&l->fields->store, l->width, sizeof *copy);
+        if (copy)
+            first = memcpy(copy, l->token, l->width * sizeof *copy);
+        rows++;
+    }
+    return l->width > 1 && rows > 1 && rows == l->like[l->width];
+}
+
 /* Chooses the way. Where none has numbers, the first line tells the widest. Refuses lines that are
  * too wide, before anything takes time. */
 static enum br_status choose(struct layout *l, size_t first)
@@ -116,7 +138,8 @@ static enum br_status choose(struct layout *l, size_t first)
     }
     l->by = BR_BY_WORDS;
     l->fields->mark = '.';
-    if (rows < 2 && measure(l) > most && (!rows || l->like[l->width] > 1)) {
+    if (measure(l) > most &&
+        (rows < 2 ? !rows || l->like[l->width] > 1 : l->like[l->width] == rows && have_names(l))) {
         width = l->width;
     } else {
         l->by = (enum br_separator)(best / 2);
@@ -488,6 +511,31 @@ static bool take_names(struct layout *l, size_t line)
     return l->row[line].is_used = true;
 }
 
+/* Whether the words of a line above aligned columns name them, "L2 error" as well; then takes it.
+ * Rates have no names there, as their columns begin with a gap. */
+static bool take_names_above(struct layout *l, size_t line)
+{
+    struct br_store *store = &l->fields->store;
+    const struct br_line *heading = &l->line[line];
+    const char **name = l->fields->heading;
+    struct br_span *span = br_store_take(store, l->width, sizeof *span);
+    char *room = br_store_take(store, BR_ROOM(heading->text), 1);
+    bool named = l->by >= BR_BY_WIDE_BLANKS && span && room && strstr(heading->text, "  ") &&
+                 !l->row[line].numbers;
+    for (size_t i = l->first; named && i <= l->last; i++)
+        named = !l->row[i].is_row || br_spans_widen(span, l->width, &l->line[i]);
+    const size_t gaps = find_gaps(l);
+    named = named && br_names_above(heading, span, l->skipped, l->width, room, name);
+    for (size_t i = 0; i < l->width && gaps; i++)
+        named &= !name[i] || !is_rate(name[i]);
+    l->fields->heading_line = named ? heading->number : 0;
+    if (!named) {
+        memset(l->skipped, 0, sizeof l->skipped);
+        memset(name, 0, l->width * sizeof *name);
+    }
+    return l->row[line].is_used = named;
+}
+
 /* Whether the line above the rows names all columns but an index or rates; then takes it. Pandas
  * has the name of an index alone below the others. */
 static bool take_short_heading(struct layout *l, size_t above)
@@ -620,7 +668,7 @@ static enum br_status find_heading(struct layout *l)
     }
     if (l->by <= BR_BY_COLONS)
         return BR_OK;
-    if (above < l->lines && take_names(l, above)) {
+    if (above < l->lines && (take_names_above(l, above) || take_names(l, above))) {
         const size_t group = next_text(l, above, -1);
         return group < l->lines ? join_groups(l, group) : BR_OK;
     }

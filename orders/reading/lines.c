@@ -104,8 +104,11 @@ static void find_kind(struct br_line *line)
                      ? BR_LINE_EMPTY
                  : sign ? BR_LINE_COMMENT
                         : BR_LINE_TEXT;
-    if (line->kind == BR_LINE_COMMENT)
-        line->text += sign + strspn(line->text + sign, " \t");
+    const size_t skipped = sign + strspn(line->text + sign, " \t");
+    if (line->kind == BR_LINE_COMMENT) {
+        line->text += skipped;
+        line->indent += skipped;
+    }
 }
 
 /* ---- lines ---- */
@@ -138,13 +141,27 @@ static char *row_end(char *line)
     return strchr(line, '&') ? strstr(line, "\\\\") : NULL;
 }
 
+/* Skips the name of a log before a line, "DEAL:2d::cells". */
+static char *skip_log_name(char *text)
+{
+    const size_t length =
+        strspn(text, ":_0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    for (size_t i = length; i > 2 && isalpha((unsigned char)*text); i--)
+        if (strncmp(text + i - 2, "::", 2) == 0)
+            return text + i;
+    return text;
+}
+
 static void add_line(struct br_line *line, char *text, size_t number)
 {
+    const char *const begin = text;
+    text = skip_log_name(text + strspn(text, " \t"));
     text += strspn(text, " \t");
+    const size_t indent = (size_t)(text - begin);
     size_t length = strlen(text);
     while (length && text[length - 1] == ' ')
         text[--length] = '\0';
-    *line = (struct br_line){text, number, BR_LINE_EMPTY};
+    *line = (struct br_line){text, number, indent, BR_LINE_EMPTY};
     find_kind(line);
 }
 
@@ -190,7 +207,9 @@ static void uncomment(struct br_line *line, size_t count)
             return;
     }
     for (size_t i = 0; i < count && comments > 2; i++) {
-        line[i].text += strspn(line[i].text, "#%! \t");
+        const size_t sign = strspn(line[i].text, "#%! \t");
+        line[i].text += sign;
+        line[i].indent += sign;
         find_kind(&line[i]);
     }
 }

@@ -17,6 +17,7 @@ enum br_line_kind {
 struct br_line {
     char *text; /* ends with a zero; has newlines in quotes only; of a comment, behind its sign */
     size_t number;
+    size_t indent; /* blanks before the text */
     enum br_line_kind kind;
 };
 
@@ -58,5 +59,22 @@ struct br_token {
 #define BR_ROOM(line) (3 * strlen(line) + 4)
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token);
+
+/* ---- names by where they stand ---- */
+
+/* Characters of a line, from begin to end. */
+struct br_span {
+    size_t begin, end;
+};
+
+/* Widens the spans of all columns by those of a row; they begin as zero. False: the row has another
+ * number of words. */
+bool br_spans_widen(struct br_span *span, size_t columns, const struct br_line *row);
+
+/* Names each column that is not skipped by the words of the heading that stand above it; room (out)
+ * has BR_ROOM(heading) bytes. False: the columns are not aligned, each word has a column of its
+ * own, or a word or a column has none. */
+bool br_names_above(const struct br_line *heading, const struct br_span *span, const bool *skipped,
+                    size_t columns, char *room, const char **name);
 
 #endif

@@ -19,7 +19,7 @@ static const struct {
     {"h", 5,
      " h dx dy \xce\x94x \xe2\x88\x86x deltax meshsize meshwidth elementsize elsize cellsize gridspacing meshspacing "
      "spacing hmax maxh hmin minh hmean havg hx hy meshh gridwidth cellwidth "
-     "steph stepwidth elementlength lc gitterweite maschenweite "},
+     "hsize steph stepwidth elementlength lc gitterweite maschenweite "},
     {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh "},
     {"n", 5,
      " nx ny cellsperside elementsperside inverseh invh hinv invdx 1overh gridresolution nxny "
@@ -49,7 +49,8 @@ static const struct {
     {"cells", 1.75, " grid mesh gridsize size volumes ncell ne "},
     {"k", 4, " k "},
     {"dt", 4,
-     " dt \xce\x94t \xe2\x88\x86t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "},
+     " dt \xce\x94t \xe2\x88\x86t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "
+     "deltatime timeincrement timestepwidth timesteplength "},
     {"steps", 4, " steps nt nsteps timesteps numsteps ntimesteps numberofsteps stepcount "},
 };
 
@@ -220,7 +221,7 @@ static bool is_unit_of(enum br_axis axis, const char *unit)
 bool br_is_unit(const char *text)
 {
     return is_unit_of(BR_AXIS_SPACE, text) || is_unit_of(BR_AXIS_TIME, text) ||
-           lists(" N kN Pa kPa MPa GPa K J W kg rad Hz ", text);
+           lists(" N kN Pa kPa MPa GPa K J W kW V kV mV A mA kg rad Hz ", text);
 }
 
 /* "grid_spacing_m": without the unit of length or time at its end. False: it has none. */

@@ -239,7 +239,7 @@ bool br_field_read(const char *text, char mark, struct br_field_number *number)
     char plain[LONGEST];
     struct reader r = {.mark = mark};
     *number = (struct br_field_number){NAN, NAN, NAN};
-    if (!make_plain(text, plain))
+    if (!make_plain(text + (*text == '~'), plain)) /* "~0.04": about */
         return false;
     const char *at = take_term(&r, plain, &number->value);
     if (at && *skip(at) == PLUS_MINUS)

@@ -83,9 +83,8 @@ static struct br_panel *add_panel(const struct br_report *r, int axis, struct br
     const struct br_study *s = r->fitted;
     const struct br_norm *norm = s->norm;
     const bool space = axis == BR_AXIS_SPACE;
-    struct br_panel *p = br_panel_add(f, space ? "mesh size h (m)" : "time step k (s)", "");
-    p->log_x = p->log_y = true;
-    BR_SAY(p->y_label, "%s (%s)", norm->symbol, norm->unit_markup);
+    struct br_panel *p = br_panel_add(f, true, space ? "mesh size h (m)" : "time step k (s)",
+                                      "%s (%s)", norm->symbol, norm->unit_markup);
     BR_SAY(p->top_label, space ? "elements n" : "steps N");
     for (size_t i = 0; i < br_axis_count(s, axis); i++)
         br_point_add(&p->top,
@@ -139,19 +138,6 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
 
 /* ---- the orders ---- */
 
-/* The errors, the fitted line, and its band. Returns the errors. */
-static const struct br_series *add_order(const struct br_observed_order *o, const char *name,
-                                         struct br_figure *f)
-{
-    const struct br_fitted_series s = br_fitted_series_add(f, name);
-    for (const struct br_point *p = o->point; p < o->point + o->points; p++)
-        br_fitted_point_add(&s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
-                            p->flag ? br_flag_name(p->flag) : NULL, p->fit.value, p->fit.low);
-    for (size_t i = o->points; i-- > 0;)
-        br_point_add(s.area, o->point[i].z, o->point[i].fit.high, NULL);
-    return s.marks;
-}
-
 /* "error, L2 norm (m^{3/2})", or "difference, L2 norm ..." where that is what shows the orders. */
 static void name_errors(const struct br_report *r, enum br_axis axis, enum br_part parts,
                         struct br_panel *p)
@@ -175,16 +161,19 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
     const enum br_part parts = both ? BR_PARTS : 1;
     const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
-    const struct br_observed_order *total = &r->observed[BR_PART_TOTAL][axis];
+    const struct br_observed_order *most = &r->observed[BR_PART_TOTAL][axis];
     struct br_panel *p = add_panel(r, (int)axis, f);
     const struct br_series *line[BR_PARTS];
     name_errors(r, axis, parts, p);
-    BR_SAY(p->title, "%s", total->by);
-    p->top.count = 0; /* the sizes of the order, not of the grid */
-    for (size_t i = 0; i < total->points; i++)
-        br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
-    for (enum br_part part = 0; part < parts; part++)
-        line[part] = add_order(&r->observed[part][axis], br_part_names[part], f);
+    BR_SAY(p->title, "%s", most->by);
+    for (enum br_part part = 0; part < parts; part++) {
+        const struct br_observed_order *o = &r->observed[part][axis];
+        most = o->points > most->points ? o : most;
+        line[part] = br_points_draw(f, br_part_names[part], o->point, o->points, true);
+    }
+    p->top.count = 0; /* the sizes of the orders, not of the grid */
+    for (size_t i = 0; i < most->points; i++)
+        br_point_add(&p->top, most->point[i].z, round(whole / most->point[i].z), NULL);
     for (enum br_part part = 0; part < parts; part++)
         br_slope_add(f, line[part], r->observed[part][axis].theory.formal);
 }

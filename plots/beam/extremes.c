@@ -35,7 +35,7 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
     BR_SAY(figure->title,
            "Deviation from the exact discrete solution after %d steps of %s, k = %g s",
            BR_FLOOR_STEPS, f->scene[0]->name, step);
-    br_panel_add(figure, "elements n", "relative deviation");
+    br_panel_add(figure, true, "elements n", "relative deviation");
     for (size_t m = 0; m < f->method.count; m++) {
         struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", f->method.list[m].name);
         for (size_t i = 0; i < f->n_count; i++)
@@ -47,7 +47,7 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
 
 static void draw_gathered(const struct br_floors *f, size_t scene, struct br_figure *figure)
 {
-    struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
+    struct br_panel *p = br_panel_add(figure, true, "steps N", "relative deviation");
     BR_SAY(p->title, "%s", f->scene[scene]->name);
     for (size_t m = 0; m < f->method.count; m += f->solvers) {
         const char *name = f->method.list[m].name, *solver = strrchr(name, '+');
@@ -74,8 +74,6 @@ struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
         draw_floors(f, k, figure);
     for (size_t scene = 0; scene < f->scenes && f->gathered; scene++)
         draw_gathered(f, scene, figure);
-    for (size_t i = 0; i < figure->panels; i++)
-        figure->panel[i].log_x = figure->panel[i].log_y = true;
     return picture;
 }
 
@@ -103,9 +101,8 @@ static void draw_plane(const struct br_stability *s, const struct br_stability_p
                        struct br_figure *figure)
 {
     struct br_panel *panel =
-        br_panel_add(figure, p->over_stiffness ? "contact stiffness c_H (N/m)" : "elements n",
+        br_panel_add(figure, true, p->over_stiffness ? "contact stiffness c_H (N/m)" : "elements n",
                      "time step k (s)");
-    panel->log_x = panel->log_y = true;
     if (p->over_stiffness)
         BR_SAY(panel->title, "%s, n = %zu", p->by->name, p->column[0].n);
     else if (s->own > 0)

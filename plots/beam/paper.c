@@ -15,7 +15,8 @@ static void add_field(const struct br_example *e, enum br_field_kind kind, const
 {
     const struct br_history_record *r = &e->record;
     const size_t unknowns = r->unknowns[kind], every = r->n > 200 ? r->n / 200 : 1;
-    BR_SAY(br_panel_add(f, "x (m)", kind == BR_AXIAL ? horizontal : vertical)->title, "%s", title);
+    BR_SAY(br_panel_add(f, false, "x (m)", "%s", kind == BR_AXIAL ? horizontal : vertical)->title,
+           "%s", title);
     for (size_t sample = 0; sample < r->samples; sample++) {
         const double *nodal = br_history_field(r, sample, kind, false);
         struct br_series *s = br_series_add(f, BR_PEN_LINE, "t = %.4g s", r->at[sample].time);
@@ -33,7 +34,8 @@ static void add_stress(const struct br_example *e, struct br_figure *f)
 static void add_beam(const struct br_example *e, enum br_field_kind kind, struct br_figure *f)
 {
     add_field(e, kind, "the beam", f);
-    struct br_panel *p = br_panel_add(f, over_time, kind == BR_AXIAL ? horizontal : vertical);
+    struct br_panel *p =
+        br_panel_add(f, false, over_time, "%s", kind == BR_AXIAL ? horizontal : vertical);
     BR_SAY(p->title, "the contact node");
     br_rows_add(
         f, BR_PEN_LINE, "", &e->record,
@@ -46,7 +48,7 @@ static void fill2(const struct br_paper *paper, struct br_figure *f)
     const struct br_early *early = &paper->early;
     add_field(&paper->example[0], BR_AXIAL, "horizontal", f);
     add_field(&paper->example[0], BR_BENDING, "vertical", f);
-    BR_SAY(br_panel_add(f, early_time, "w(L,t) (nm)")->title, "the tip at first");
+    BR_SAY(br_panel_add(f, false, early_time, "w(L,t) (nm)")->title, "the tip at first");
     struct br_series *exact = br_series_add(f, BR_PEN_GUIDE, "exact");
     for (size_t i = 0; i <= BR_EXACT_EARLY; i++)
         br_point_add(exact, 1e6 * early->exact[i].time,
@@ -61,12 +63,12 @@ static void fill3(const struct br_paper *paper, struct br_figure *f)
 {
     static const char bound[] = "friction bound h(t) = c_V u(1,t)";
     const struct br_history_row *exact = paper->early.exact;
-    struct br_panel *p = br_panel_add(f, over_time, "force (N)");
+    struct br_panel *p = br_panel_add(f, false, over_time, "force (N)");
     p->log_y = true;
     BR_SAY(p->title, "the scheme");
     add_stress(&paper->example[0], f);
     br_rows_add(f, BR_PEN_LINE, bound, &paper->example[0].record, BR_ROW(friction_bound), 1);
-    BR_SAY(br_panel_add(f, early_time, "force (N)")->title, "the first instants, exact");
+    BR_SAY(br_panel_add(f, false, early_time, "force (N)")->title, "the first instants, exact");
     struct br_series *s[] = {br_series_add(f, BR_PEN_LINE, "%s", stress),
                              br_series_add(f, BR_PEN_LINE, "%s", bound)};
     for (size_t i = 0; i <= BR_EXACT_EARLY; i++) {
@@ -90,7 +92,7 @@ static void mark_release(const struct br_example *e, struct br_figure *f)
 static void fill6(const struct br_paper *paper, struct br_figure *f)
 {
     const struct br_example *e = &paper->example[2];
-    br_panel_add(f, over_time, "force (N)");
+    br_panel_add(f, false, over_time, "force (N)");
     add_stress(e, f);
     br_rows_add(f, BR_PEN_LINE, "friction bound c_V", &e->record, BR_ROW(friction_bound), 1);
 }
@@ -107,9 +109,9 @@ static void fill9(const struct br_paper *paper, struct br_figure *f)
 {
     static const char bound[] = "bound h(t) = c_V u(1,t), and -h(t)";
     const struct br_example *e = &paper->example[3];
-    BR_SAY(br_panel_add(f, over_time, "force (N)")->title, "friction bound");
+    BR_SAY(br_panel_add(f, false, over_time, "force (N)")->title, "friction bound");
     br_rows_add(f, BR_PEN_LINE, bound, &e->record, BR_ROW(friction_bound), 1);
-    BR_SAY(br_panel_add(f, over_time, "force (N)")->title, "tangential stress");
+    BR_SAY(br_panel_add(f, false, over_time, "force (N)")->title, "tangential stress");
     br_rows_add(f, BR_PEN_LINE, bound, &e->record, BR_ROW(friction_bound), 1);
     br_rows_add(f, BR_PEN_LINE, bound, &e->record, BR_ROW(friction_bound), -1);
     add_stress(e, f);
@@ -121,8 +123,7 @@ static void fill10(const struct br_paper *paper, struct br_figure *f)
                                          [BR_SWEEP_FRICTION] = "friction coefficient c_V (N/m)"};
     for (size_t sweep = 0; sweep < sizeof labels / sizeof *labels; sweep++) {
         const struct br_sweep *s = &paper->sweep[sweep];
-        struct br_panel *p = br_panel_add(f, labels[sweep], "|u| + |w| (m^{3/2})");
-        p->log_x = p->log_y = true;
+        br_panel_add(f, true, labels[sweep], "|u| + |w| (m^{3/2})");
         struct br_series *most =
             br_series_add(f, BR_PEN_LINE, "largest of all times, contact at u_n");
         struct br_series *last = br_series_add(f, BR_PEN_LINE, "at t = T, contact at u_n");
@@ -218,7 +219,7 @@ const struct br_paper_figure br_paper_figures[] = {
     {
         .number = 10,
         .example = 4,
-        .title = "Example 4: sum of the L2 norms depending on c_H and c_V",
+        .title = "Example 4: sum of the L2 norms over the coefficients of contact and friction",
         .says = "The stability of the solution is clearly observed.",
         .beside =
             "The paper says neither the ranges nor the time of its norms: shown are the largest sum "

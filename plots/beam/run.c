@@ -21,19 +21,19 @@ struct br_figure br_history_draw(const struct br_scene *scene, const struct br_h
     struct br_figure figure = {.stem = "history"}, *f = &figure;
     BR_SAY(f->title, "The tip over time: %s", scene->title);
     if (scene->axial.modelled) {
-        br_panel_add(f, "time (s)", "horizontal displacement, u(L) (m)");
+        br_panel_add(f, false, "time (s)", "horizontal displacement, u(L) (m)");
         br_rows_add(f, BR_PEN_LINE, "u", r, BR_ROW(displacement[BR_AXIAL]), 1);
     }
     if (scene->bending.modelled) {
-        br_panel_add(f, "time (s)", "vertical displacement, w(L) (m)");
+        br_panel_add(f, false, "time (s)", "vertical displacement, w(L) (m)");
         br_rows_add(f, BR_PEN_LINE, "w", r, BR_ROW(displacement[BR_BENDING]), 1);
     }
     if (scene->contact.modelled) {
-        br_panel_add(f, "time (s)", "contact force (N)");
+        br_panel_add(f, false, "time (s)", "contact force (N)");
         br_rows_add(f, BR_PEN_LINE, "contact", r, BR_ROW(contact_force), 1);
     }
     if (scene->friction.law != BR_FRICTIONLESS) {
-        br_panel_add(f, "time (s)", "friction force and its bound (N)");
+        br_panel_add(f, false, "time (s)", "friction force and its bound (N)");
         br_rows_add(f, BR_PEN_LINE, "friction", r, BR_ROW(friction_force), 1);
         br_rows_add(f, BR_PEN_GUIDE, "bound", r, BR_ROW(friction_bound), 1);
         br_rows_add(f, BR_PEN_GUIDE, "bound", r, BR_ROW(friction_bound), -1);

@@ -77,10 +77,8 @@ static void name_panel(const struct line *line, struct br_panel *p)
 static void fill_panel(const struct line *line, struct br_figure *f)
 {
     const struct br_split *first = line->first;
-    struct br_panel *p = br_panel_add(f, line->over_k ? "time step k (s)" : "mesh size h (m)", "");
-    p->log_x = p->log_y = true;
-    BR_SAY(p->y_label, "%s (%s)", first->norm[0]->symbol, first->norm[0]->unit_markup);
-    name_panel(line, p);
+    name_panel(line, br_panel_add(f, true, line->over_k ? "time step k (s)" : "mesh size h (m)",
+                                  "%s (%s)", first->norm[0]->symbol, first->norm[0]->unit_markup));
     add_points(line, BR_SOURCES, br_series_add(f, BR_PEN_BAND, "whole"));
     for (size_t i = 0; i < BR_SOURCES; i++)
         if (is_anywhere(line, i))

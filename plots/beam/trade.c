@@ -126,9 +126,7 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
     BR_SAY(f->about, "%s", picture->title);
     if (failed + over)
         BR_SAY(f->note[0], "not drawn: %zu failed, %zu over the time limit", failed, over);
-    struct br_panel *panel = br_panel_add(f, picture->label, "");
-    panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "relative %s", trade->request.norm->symbol);
+    br_panel_add(f, true, picture->label, "relative %s", trade->request.norm->symbol);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "Pareto front");
     add_front(picture, trade, NULL, front);
     for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++) {

@@ -500,18 +500,37 @@ static bool is_acceptable(struct search *s)
     return ratio <= slow;
 }
 
-/* Relative errors that the distance of solutions does not show: intervals too narrow to be
- * examined, remainders of proofs, and the rounding of the stages' times, independent of each other,
- * where the load changes fast. */
-static double unproved(const struct search *s, size_t which)
+/* The longest time in which a velocity makes a displacement of the field: T, or one over the lowest
+ * frequency, s. */
+static double swing(const struct search *s, size_t which)
 {
+    const struct br_oscillators *field = s->exact->solution->field[which];
+    double heaviest = 0;
+    for (size_t i = 0; i < field->modes.count; i++)
+        heaviest = fmax(heaviest, field->mass[i]);
+    return fmin(s->scene->duration, sqrt(heaviest / field->stiffness));
+}
+
+/* Adds what the distance of solutions does not show: relative errors by intervals too narrow to be
+ * examined and by remainders of proofs, and the rounding of the stages' times, independent of each
+ * other, where the load changes fast. That is an error of the loads' velocity: where loads cancel,
+ * more than a share of what they leave. */
+static void add_unproved(const struct search *s, size_t which)
+{
+    struct br_exact_report *report = &s->exact->report[which];
     const struct br_history *track = s->exact->solution->track[which];
-    const double rounding = 0.29, change = 0.25; /* rms of a unit; of a load over a cell */
-    const double blurred =
-        track && track->impulse > 0
-            ? rounding * change * sqrt(track->blurred / BR_STAGES) / track->impulse
-            : 0;
-    return s->missed + s->data_mesh[which].proved + blurred;
+    const double rounding = 3 * 0.29; /* of a unit: three times its rms */
+    const double change = 0.25;       /* of a load over a cell: rms */
+    double velocity = 0, share = 0;   /* m^(3/2)/s; of the velocity by the loads */
+    if (track && track->impulse > 0) {
+        velocity = rounding * change * sqrt(track->blurred / BR_STAGES);
+        share = velocity / track->impulse;
+    }
+    add_to_size(&report->error, 1, s->missed + s->data_mesh[which].proved + share,
+                &report->largest);
+    if (velocity > 0)
+        report->error.displacement =
+            fmax(report->error.displacement, velocity / sqrt(s->scene->length) * swing(s, which));
 }
 
 /* No error is stated below what rounding does to a solution: distances below it are those of one
@@ -565,7 +584,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     if (!(s->worst <= enough) && !is_acceptable(s))
         return refuse(s->exact, s->worst, &s->cause, err);
     for (size_t i = 0; i < BR_FIELDS; i++) {
-        add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);
+        add_unproved(s, i);
         raise_to_rounding(&s->exact->report[i]);
     }
     if (!(stated_error(s->exact) <= fmax(s->o->acceptable, NEAR * s->o->tolerance)))

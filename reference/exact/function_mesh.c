@@ -10,6 +10,7 @@
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
+#include <string.h>
 
 #include "solver/box.h"
 
@@ -68,7 +69,8 @@ double br_function_mesh_error(const struct br_function *f, enum br_variable v, s
 
 /* ---- the mean ---- */
 
-/* Repeated halves: the one whose share is known least is halved next. */
+/* Repeated halves: the one whose share is known least is halved next, along the variable by which
+ * more is known then. */
 struct share {
     struct br_box box;
     double low, high; /* of the integral of |f| over it */
@@ -81,6 +83,20 @@ static struct share share_of(const struct br_function *f, struct br_box box)
         return (struct share){box, 0, INFINITY};
     const double least = v.low > 0 ? v.low : v.high < 0 ? -v.high : 0;
     return (struct share){box, measure(box) * least, measure(box) * magnitude(v)};
+}
+
+static double unknown(const struct share of[2])
+{
+    return of[0].high - of[0].low + (of[1].high - of[1].low);
+}
+
+static void share_halves(const struct br_function *f, struct br_box box, enum br_variable v,
+                         struct share of[2])
+{
+    struct br_box half[2];
+    halve(box, v, half);
+    for (size_t k = 0; k < 2; k++)
+        of[k] = share_of(f, half[k]);
 }
 
 double br_function_mesh_mean(const struct br_function *f, struct br_box whole)
@@ -101,10 +117,15 @@ double br_function_mesh_mean(const struct br_function *f, struct br_box whole)
         const struct br_box box = share[worst].box;
         const double x = width(box.x), t = width(box.t);
         const bool along_x = x > 0 && !(t / width(whole.t) > x / width(whole.x));
-        struct br_box half[2];
-        halve(box, along_x ? BR_X : BR_T, half);
-        share[worst] = share_of(f, half[0]);
-        share[count] = share_of(f, half[1]);
+        struct share of[2], other[2];
+        share_halves(f, box, along_x ? BR_X : BR_T, of);
+        if (x > 0 && t > 0) {
+            share_halves(f, box, along_x ? BR_T : BR_X, other);
+            if (unknown(other) < unknown(of))
+                memcpy(of, other, sizeof of);
+        }
+        share[worst] = of[0];
+        share[count] = of[1];
     }
 }
 

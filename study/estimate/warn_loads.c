@@ -533,9 +533,10 @@ static void report_jump(const struct loss *s, const char *of, struct br_warnings
     char remedy[400] = "", at[40];
     snprintf(at, sizeof at, "%.10g", s->jump);
     if (br_time_scheme_stages(o->method->scheme) == 1 && strtod(at, NULL) >= s->jump)
-        br_append(remedy, sizeof remedy,
-                  "a load with its value of before at t = %s s: (t > %s), not step(t - %s)\n", at,
-                  at, at);
+        br_append(
+            remedy, sizeof remedy,
+            "a load with its value of before at t = %s s: (t > %s) or (t <= %s), not step(t - %s)\n",
+            at, at, at, at);
     br_append(remedy, sizeof remedy, "--k T/%zu  # no time level on the jump",
               steps_around(o, s->jump));
     br_warn(

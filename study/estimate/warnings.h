@@ -68,20 +68,4 @@ void br_check_contact(const struct br_planned_march *planned, struct br_warnings
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);
 
-/* ---- memory (resources.c) ---- */
-
-/* Bytes that are still available: the least of MemAvailable of /proc/meminfo and of the remaining
- * limits of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
-double br_memory_available(void);
-
-/* Refuses (BR_NO_MEMORY) a march that does not fit into a memory of so many bytes, with the
- * figures. */
-enum br_status br_fits_memory(const struct br_planned_march *planned, double available,
-                              struct br_error *err);
-
-/* The same of studies: br_study_run has all cells and fine references in memory at once. They need
- * not be prepared. */
-enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
-                               struct br_error *err);
-
 #endif

@@ -7,6 +7,7 @@
 #include "solver/linear/linear_solver.h"
 #include "solver/march.h"
 #include "solver/scene.h"
+#include "study/grid/study_march.h"
 
 static const double nanosecond = 1e-9;
 
@@ -167,8 +168,21 @@ void br_costs_add_march(struct br_costs *w, const struct br_planned_march *plann
     add(w, planned, br_march_seconds(planned));
 }
 
+/* What a study keeps of time levels (study_march.h): a list of those of its cells, and the steps by
+ * which the axial field of a fine run may be ahead. */
+static double level_bytes(const struct br_study *s)
+{
+    const double step_ahead = 120; /* br_tip_path */
+    double levels = 0;
+    for (size_t j = 0; j < s->k_count; j++)
+        levels += (double)s->steps[j];
+    return levels * sizeof(size_t) +
+           step_ahead * BR_STUDY_MARCH_BUFFERS * (double)(br_study_longest_gap(s) - 1);
+}
+
 void br_costs_add_study(struct br_costs *w, const struct br_study *s)
 {
+    w->bytes += level_bytes(s);
     for (size_t c = 0; c < br_study_cells(s); c++) {
         const struct br_planned_march cell = cell_of(s, c);
         add(w, &cell, br_cell_seconds(s, c));

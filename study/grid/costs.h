@@ -79,4 +79,20 @@ void br_costs_measure(struct br_costs *work);
 /* Approximate seconds on so many threads, where known. */
 double br_costs_seconds(const struct br_costs *work, int threads);
 
+/* ---- memory (resources.c) ---- */
+
+/* Bytes that are still available: the least of MemAvailable of /proc/meminfo and of the remaining
+ * limits of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
+double br_memory_available(void);
+
+/* Refuses (BR_NO_MEMORY) a march that does not fit into a memory of so many bytes, with the
+ * figures. */
+enum br_status br_fits_memory(const struct br_planned_march *planned, double available,
+                              struct br_error *err);
+
+/* The same of studies whose cells, fine references and lists of time levels are in memory at once;
+ * br_march_studies asks. They need not be prepared. */
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err);
+
 #endif

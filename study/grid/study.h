@@ -61,6 +61,15 @@ void br_study_clear(struct br_study *study);
  * norms. Fails with BR_BAD_INPUT, naming the nearest values that would do, or BR_NO_MEMORY. */
 enum br_status br_study_prepare(struct br_study *study, struct br_error *err);
 
+/* The most steps of a fine run between two time levels of the cells; 1: of other references. */
+static inline size_t br_study_longest_gap(const struct br_study *s)
+{
+    size_t most = 1;
+    for (size_t j = 0; j < s->k_count; j++)
+        most = s->steps[j] > most ? s->steps[j] : most;
+    return s->reference_kind->nests && most < s->reference.steps ? s->reference.steps / most : 1;
+}
+
 /* How many cells a study has. */
 static inline size_t br_study_cells(const struct br_study *s)
 {

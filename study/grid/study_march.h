@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reference and the cells of a study on their way through time: study_march_setup.c creates the
  * state, study_march.c does its batches, lanes.c chooses who does which, sweep.c takes the results.
- * Private to these files. */
+ * Private to these files and costs.c. */
 #ifndef BR_STUDY_GRID_STUDY_MARCH_H
 #define BR_STUDY_GRID_STUDY_MARCH_H
 
@@ -12,7 +12,11 @@
 #include "study/grid/nested_meshes.h"
 #include "study/grid/study.h"
 
-enum { BR_STUDY_MARCH_BUFFERS = 4, BR_MEASURED = 2 * BR_MEASURES };
+enum {
+    BR_STUDY_MARCH_BUFFERS = 4,
+    BR_STUDY_MARCH_LEAD = 20000, /* steps of a fine run in a buffer, unless its levels have more */
+    BR_MEASURED = 2 * BR_MEASURES
+};
 
 /* One measure of one field of the reference and the cells. */
 struct br_measured {

@@ -135,13 +135,19 @@ static enum br_status create_all_measured(struct br_study_march *l, struct br_er
     return status;
 }
 
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
 static enum br_status create_buffers(struct br_study_march *l, struct br_error *err)
 {
     size_t doubles = 0;
     for (size_t i = 0; i < BR_MEASURED; i++)
         doubles += l->measured[i].size;
-    l->batch = buffer_bytes / (doubles * sizeof(double));
-    l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
+    l->batch = least(most_levels, buffer_bytes / (doubles * sizeof(double)));
+    l->batch = least(l->batch, BR_STUDY_MARCH_LEAD / br_study_longest_gap(l->study));
+    l->batch = l->batch < 1 ? 1 : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
     l->buffered_levels = BR_STUDY_MARCH_BUFFERS * l->batch;
     for (size_t i = 0; i < BR_MEASURED; i++)

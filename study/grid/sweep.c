@@ -6,6 +6,7 @@
 
 #include "base/each.h"
 #include "base/text.h"
+#include "study/grid/costs.h"
 #include "study/grid/study_march.h"
 
 /* ---- the set-up ---- */
@@ -126,7 +127,10 @@ static enum br_status conclude(struct br_study_march *l, struct br_error *err)
 enum br_status br_march_studies(struct br_study *studies, size_t count, int threads,
                                 const struct br_observer *observer, struct br_error *err)
 {
-    struct sweep_work work = {studies, br_allocate(count, sizeof *work.step), count, observer};
+    struct sweep_work work = {studies, NULL, count, observer};
+    if (br_fit_together(studies, count, br_memory_available(), err))
+        return err->status;
+    work.step = br_allocate(count, sizeof *work.step);
     if (!work.step)
         return br_no_memory(err, "the studies");
     br_each(&(struct br_each){count, br_threads(threads), NULL, create_of_scene, NULL, &work},

@@ -421,9 +421,7 @@ static enum br_status march_together(struct br_study *studies, size_t count, int
  * end by themselves. */
 _Noreturn static void abort_job(const char *why)
 {
-    fprintf(stderr, "beamrate: rank %d of %d: ", job.rank, job.size);
-    br_quote(stderr, &br_for_text, why);
-    fputc('\n', stderr);
+    br_print(stderr, &br_for_text, "beamrate: rank %d of %d: %s\n", job.rank, job.size, why);
     fflush(NULL);
     if (job.rank <= 1)
         MPI_Abort(MPI_COMM_WORLD, br_status_exit_code(BR_IO));

@@ -98,9 +98,9 @@ static enum br_status check_required(const struct br_scene_reader *r, const char
             continue;
         if (k->laws && !(k->laws & 1u << r->scene->friction.law))
             continue;
-        return br_scene_refuse(r, line, k->name, "missing%s%s, expected %s%s%s",
-                               *section ? " in " : "", section, k->help, *k->unit ? ", in " : "",
-                               k->unit);
+        return br_scene_refuse(
+            r, line, k->name, "missing%s%s, expected %s%s%s", *section ? " in " : "", section,
+            br_scene_key_help(k, (char[BR_KEY_HELP]){0}), *k->unit ? ", in " : "", k->unit);
     }
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
         if (br_scene_line(r, k) && strcmp(k->section, section) == 0 && k->laws &&

@@ -90,7 +90,7 @@ const struct br_scene_key br_scene_keys[] = {
     {"contact", "stiffness", BR_KEY_NOT_NEGATIVE, BR_REQUIRED, 0, "N/m", AT(contact.stiffness),
      "c_H", "1000 N/m"},
 
-    {"friction", "law", BR_KEY_LAW, BR_REQUIRED, 0, "", 0, "tresca or coulomb", "coulomb"},
+    {"friction", "law", BR_KEY_LAW, BR_REQUIRED, 0, "", 0, "", "coulomb"},
     {"friction", "bound", BR_KEY_NOT_NEGATIVE, BR_REQUIRED, OF(BR_TRESCA), "N",
      AT(friction.coefficient), "c_V of Tresca's law", "100 N"},
     {"friction", "coefficient", BR_KEY_NOT_NEGATIVE, BR_OR_RATIO, OF(BR_COULOMB), "N/m",
@@ -101,6 +101,12 @@ const struct br_scene_key br_scene_keys[] = {
 };
 _Static_assert(sizeof br_scene_keys / sizeof *br_scene_keys <= BR_MOST_SCENE_KEYS,
                "struct br_scene_given has no room");
+
+const char *br_scene_key_help(const struct br_scene_key *key, char text[BR_KEY_HELP])
+{
+    return key->kind == BR_KEY_LAW ? br_words_join(&br_friction_words, " or ", text, BR_KEY_HELP)
+                                   : key->help;
+}
 
 size_t br_scene_row(const char *path)
 {
@@ -153,15 +159,17 @@ enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text
                                       struct br_si_number *q)
 {
     enum { MOST_UNIT = 64 };
-    char *behind, word[MOST_UNIT];
+    char word[MOST_UNIT];
+    double value;
     struct br_unit unit;
-    const double value = strtod(text, &behind);
-    const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
-    if (behind == text || (*behind && strchr(".,", *behind)) || !isfinite(value) ||
-        length >= MOST_UNIT)
+    const char *behind = br_read_number(text, &value);
+    const size_t length = !behind                ? 0
+                          : end && end >= behind ? (size_t)(end - behind)
+                                                 : strlen(behind);
+    if (!behind || (*behind && strchr(".,", *behind)) || length >= MOST_UNIT)
         return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s%s",
                                br_yaml_text(v->node), v->unit,
-                               *behind == ',' ? ", with a point before decimals" : "");
+                               behind && *behind == ',' ? ", with a point before decimals" : "");
     snprintf(word, sizeof word, "%.*s", (int)length, behind);
     const enum br_status status = br_scene_read_unit(v, word + strspn(word, " "), &unit);
     if (status)
@@ -206,17 +214,12 @@ enum br_status br_scene_keep_text(const struct br_scene_value *v, const char *te
 static enum br_status read_law(const struct br_scene_value *v)
 {
     const char *text = br_yaml_text(v->node);
-    char expected[BR_EXPECTED];
-    const char *name[BR_FRICTION_LAWS];
-    for (enum br_friction_law law = 1; law < BR_FRICTION_LAWS; law++) {
-        name[law - 1] = br_friction_models[law].name;
-        if (strcmp(text, name[law - 1]) == 0) {
-            v->r->scene->friction.law = law;
-            return BR_OK;
-        }
-    }
-    return BR_REFUSE_VALUE(v, "found '%s', %s", text,
-                           br_expected(text, name, BR_FRICTION_LAWS - 1, expected));
+    struct br_error inner = {0};
+    size_t row;
+    if (br_words_read(&br_friction_words, text, strlen(text), &row, &inner))
+        return BR_REFUSE_VALUE(v, "%s", inner.message);
+    v->r->scene->friction.law = (enum br_friction_law)(row + 1);
+    return BR_OK;
 }
 
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
@@ -225,7 +228,8 @@ enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct
     struct br_scene_value v = {r, key, node, key->unit, false};
     const bool product = key->kind == BR_KEY_LOAD && node->type == YAML_MAPPING_NODE;
     if (node->type != YAML_SCALAR_NODE && !product)
-        return BR_REFUSE_VALUE(&v, "found a list or a mapping, expected %s", key->help);
+        return BR_REFUSE_VALUE(&v, "found a list or a mapping, expected %s",
+                               br_scene_key_help(key, (char[BR_KEY_HELP]){0}));
     switch (key->kind) {
     case BR_KEY_POSITIVE:
     case BR_KEY_NOT_NEGATIVE:

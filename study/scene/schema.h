@@ -37,7 +37,7 @@ struct br_scene_key {
     unsigned laws;       /* of friction that have this key, a bit each: 1u << BR_COULOMB; 0: any */
     const char *unit;    /* one unit of its dimension; "": none */
     size_t offset;       /* in struct br_scene; of a section: of its flag `modelled` */
-    const char *help;    /* what is expected */
+    const char *help;    /* what is expected; "" of a law: br_scene_key_help */
     const char *example; /* a value for templates; the required keys together make a scene */
 };
 
@@ -56,6 +56,10 @@ struct br_scene_given {
 
 /* Ends with a row whose name is NULL. */
 extern const struct br_scene_key br_scene_keys[];
+
+/* What is expected of a key. text: workspace. */
+enum { BR_KEY_HELP = 200 };
+const char *br_scene_key_help(const struct br_scene_key *key, char text[BR_KEY_HELP]);
 
 /* The row of a key, as "axial.stiffness" or "density", which must exist. */
 size_t br_scene_row(const char *path);

@@ -214,18 +214,13 @@ bool br_unit_convert(const struct br_unit *unit, const char *text, size_t length
     char moved[MOST + 16];
     if (length >= MOST)
         return false;
-    const bool hexadecimal = memchr(text, 'x', length) || memchr(text, 'X', length);
-    const size_t digits = hexadecimal ? length : strcspn(text, "eE");
+    const size_t digits = strcspn(text, "eE");
     long exponent = digits < length ? strtol(text + digits + 1, NULL, 10) : 0;
     exponent = exponent > FARTHEST ? FARTHEST : exponent < -FARTHEST ? -FARTHEST : exponent;
-    if (hexadecimal)
-        snprintf(moved, sizeof moved, "%.*s", (int)length, text);
-    else
-        snprintf(moved, sizeof moved, "%.*se%ld", (int)(digits < length ? digits : length), text,
-                 exponent + unit->ten);
-    const long double factor = unit->factor * (hexadecimal ? powl(10, unit->ten) : 1);
-    q->wide = strtold(moved, NULL) * factor;
-    q->value = factor == 1 ? strtod(moved, NULL) : (double)q->wide;
+    snprintf(moved, sizeof moved, "%.*se%ld", (int)(digits < length ? digits : length), text,
+             exponent + unit->ten);
+    q->wide = strtold(moved, NULL) * unit->factor;
+    q->value = unit->factor == 1 ? strtod(moved, NULL) : (double)q->wide;
     return true;
 }
 

@@ -47,7 +47,8 @@ struct br_si_number {
     long double wide;
 };
 
-/* Converts the number in the first `length` characters of text. Returns false if it is too long. */
+/* Converts the decimal number in the first `length` characters of text. Returns false if it is too
+ * long. */
 bool br_unit_convert(const struct br_unit *unit, const char *text, size_t length,
                      struct br_si_number *quantity);
 

@@ -6,8 +6,8 @@
 
 #include "base/clock.h"
 #include "base/each.h"
-#include "study/estimate/warnings.h"
 #include "study/fit/fit.h"
+#include "study/grid/costs.h"
 #include "study/grid/sweep.h"
 
 const char *const br_trial_end_names[BR_TRIAL_ENDS] = {

@@ -78,9 +78,7 @@ void br_history_csv_row(FILE *out, const struct br_history_row *row)
 
 void br_history_csv_stopped(FILE *out, const char *message)
 {
-    fprintf(out, "# stopped: ");
-    br_quote(out, &br_for_text, message);
-    fputc('\n', out);
+    br_print(out, &br_for_text, "# stopped: %s\n", message);
 }
 
 /* ---- the fields as CSV: one line for each node and time, in SI units ---- */
@@ -115,9 +113,7 @@ enum { PIECE = 150000 }; /* elements: at most 52 bytes a node in a text */
 
 static void xdmf_information(FILE *out, const char *name, const char *text)
 {
-    fprintf(out, "<Information Name=\"%s\" Value=\"", name);
-    br_quote(out, &br_for_xml, text);
-    fputs("\"/>\n", out);
+    br_print(out, &br_for_xml, "<Information Name=\"%s\" Value=\"%s\"/>\n", name, text);
 }
 
 /* The last node of the piece that begins at a node. */

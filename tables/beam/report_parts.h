@@ -15,7 +15,7 @@ void br_put_method_facts(struct br_document *d, const char *key, const struct br
                          const struct br_meshes *on);
 void br_put_method_cells(struct br_document *d, const struct br_method *method);
 
-/* ---- of a study (report_study.c, report_answers.c, report_fits.c) ---- */
+/* ---- of a study (report_study.c, report_answers.c) ---- */
 
 /* k of a cell, s. */
 static inline double br_step_of(const struct br_study *s, const struct br_cell *c)

@@ -7,8 +7,6 @@
 #include "study/scene/method_fields.h"
 #include "tables/beam/report_parts.h"
 
-enum { VALUE = 80 };
-
 /* ---- facts ---- */
 
 static bool has_friction(const struct br_run_report *r)
@@ -21,10 +19,9 @@ static void put_two(struct br_document *d, const struct br_run_report *r, const 
                     const char *label, const char *unit, const char *key)
 {
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        char heading[80];
-        snprintf(heading, sizeof heading, "%s, %s", label ? label : "", br_field_names[kind]);
-        br_put_fact_as(d, br_if(r->marched.field[kind].modelled, br_number(x[kind])),
-                       label ? heading : NULL, unit, "%s.%s", key, br_field_names[kind]);
+        const char *heading = label ? br_format(d, "%s, %s", label, br_field_names[kind]) : NULL;
+        br_put_fact_as(d, br_if(r->marched.field[kind].modelled, br_number(x[kind])), heading, unit,
+                       "%s.%s", key, br_field_names[kind]);
     }
 }
 
@@ -43,12 +40,11 @@ static double tip_error(const struct br_run_findings *f, enum br_field_kind kind
 }
 
 /* "-0.222 +- 0.014" */
-static const char *with_error(double value, double error, char text[VALUE])
+static const char *with_error(struct br_document *d, double value, double error)
 {
-    if (!isinf(error))
-        return br_uncertain_text(value, error, text, VALUE);
-    snprintf(text, VALUE, "%.1g (perhaps no digit is correct)", value);
-    return text;
+    if (isinf(error))
+        return br_format(d, "%.1g (perhaps no digit is correct)", value);
+    return br_format(d, "%s", br_uncertain_text(value, error, (char[64]){0}, 64));
 }
 
 /* Puts a number of the march with as many digits as its error allows. error: of this number; NaN:
@@ -58,43 +54,39 @@ static void put_number(struct br_document *d, const struct br_run_findings *f, d
 {
     const struct br_prediction *p = f->prediction;
     const double digits = p->known ? 1 - floor(log10(p->whole.error)) : 3;
-    char text[VALUE];
+    char text[64];
     BR_FACT(d, br_number(value), .key = key, .heading = heading, .unit = unit);
     if (!isfinite(value))
         return;
     if (error > 0 || value == 0)
-        with_error(value, error, text);
+        br_put_shown(d, "%s", with_error(d, value, error));
     else
-        br_digits_text(value, (int)fmax(2, fmin(digits, 6)), text, sizeof text);
-    br_put_shown(d, "%s", text);
+        br_put_shown(d, "%s",
+                     br_digits_text(value, (int)fmax(2, fmin(digits, 6)), text, sizeof text));
 }
 
 static void answer_tip(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
     const struct br_tip_watch *w = &r->watch;
-    const char *between = ":", *before = " Events:";
-    char value[VALUE];
+    br_put_list(d, ": ", ", ");
     br_put_answer(d, "Tip at t = %.10g s%s", r->end.last.time,
                   r->failure.status ? " (the last good step)" : "");
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (r->marched.field[kind].modelled) {
-            br_put_more(d, "%s %s = %s m", between, kind == BR_AXIAL ? "u" : "w",
-                        with_error(r->end.last.displacement[kind], tip_error(f, kind), value));
-            between = ",";
-        }
+        if (r->marched.field[kind].modelled)
+            br_put_item(d, "%s = %s m", kind == BR_AXIAL ? "u" : "w",
+                        with_error(d, r->end.last.displacement[kind], tip_error(f, kind)));
     if (w->contact)
-        br_put_more(d, "%s contact %s", between, w->closed ? "closed" : "open");
+        br_put_item(d, "contact %s", w->closed ? "closed" : "open");
     if (w->friction && w->steps)
         br_put_more(d, ", friction: %s%s", br_tip_regime_words[w->regime],
                     w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
     br_put_more(d, ".");
+    br_put_list(d, " Events: ", ", ");
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
-        if (w->count[kind]) {
-            br_put_more(d, "%s %s %zu", before, br_tip_event_words[kind], w->count[kind]);
-            before = ",";
-        }
-    br_put_more(d, *before == ',' ? "." : "");
+        if (w->count[kind])
+            br_put_item(d, "%s %zu", br_tip_event_words[kind], w->count[kind]);
+    br_put_more(d, "%s", d->items ? "." : "");
 }
 
 /* "Estimated error: 0.057 % of the solution (0.016 to 0.18 %), nearly all from the time steps". */
@@ -186,9 +178,7 @@ static void put_predicted(struct br_document *d, bool known, const char *key, co
 static void put_extreme(struct br_document *d, const struct br_run_findings *f, bool known,
                         const char *key, const char *label, const struct br_extreme *e)
 {
-    char name[80];
-    snprintf(name, sizeof name, "events.%s.value", key);
-    put_number(d, f, known ? e->value : NAN, NAN, label, "N", name);
+    put_number(d, f, known ? e->value : NAN, NAN, label, "N", br_format(d, "events.%s.value", key));
     br_put_fact_as(d, br_if(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
 }
 
@@ -231,7 +221,6 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
     const struct br_history_row *row = &r->end.last;
     const bool contact = r->marched.contact.modelled;
     const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
-    char text[VALUE];
     br_put_section(d, "The tip");
     BR_FACT(d, br_number(row->time), .key = "tip.t", .heading = "t", .unit = "s");
     br_hide_fact(d, br_count(row->step), NULL, "tip.step");
@@ -239,7 +228,7 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
         br_put_fact_as(d,
                        br_if(r->marched.field[kind].modelled, br_number(row->displacement[kind])),
                        displacements[kind], "m", "tip.displacement.%s", br_field_names[kind]);
-        br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
+        br_put_shown(d, "%s", with_error(d, row->displacement[kind], error[kind]));
     }
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -263,42 +252,51 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
 
 /* ---- events ---- */
 
+static void put_switch(struct br_document *d, const struct br_switch *s)
+{
+    const enum br_regime regime[] = {s->from, s->to};
+    br_put_row(d);
+    BR_PUT(d, br_number(s->time), .key = "t", .unit = "s", .format = "%.12g");
+    BR_PUT(d, br_text(s->kind == BR_AXIAL ? "contact" : "friction"), .key = "law");
+    for (int j = 0; j < 2; j++) {
+        BR_PUT(d, br_text(br_regime_name(regime[j])), .key = j ? "to" : "from");
+        if (regime[j] == BR_REGIME_NONE)
+            br_put_shown(d, "no bound");
+    }
+}
+
 static void put_switches(struct br_document *d, const struct br_run_report *r)
 {
-    static const struct br_column columns[] = {{.key = "t", .unit = "s", .format = "%.12g"},
-                                               {.key = "law"},
-                                               {.key = "from"},
-                                               {.key = "to"}};
     BR_FACT(d, br_count(r->switches), .key = "events.switches",
             .heading = "switches that the scheme has found");
-    BR_TABLE(d, "switches_found", "Switches that the scheme found within its steps", 0, columns);
-    for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
-        const struct br_switch *s = &r->switched[i];
-        const enum br_regime regime[] = {s->from, s->to};
-        BR_PUT_ROW(d, br_number(s->time), br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
-        for (int j = 0; j < 2; j++) {
-            BR_PUT_CELLS(d, br_text(br_regime_name(regime[j])));
-            if (regime[j] == BR_REGIME_NONE)
-                br_put_shown(d, "no bound");
-        }
-    }
+    br_put_table(d, "switches_found", "Switches that the scheme found within its steps", 0);
+    put_switch(d, &(struct br_switch){0});
+    br_put_no_row(d);
+    for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++)
+        put_switch(d, &r->switched[i]);
 }
 
 /* Puts a number of steps, and their share. */
 static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
-    char label[80];
-    snprintf(label, sizeof label, "steps: %s", word);
-    br_put_fact_as(d, br_count(steps), known && all ? label : NULL, NULL, "events.steps.%s", word);
+    br_put_fact_as(d, br_count(steps), known && all ? br_format(d, "steps: %s", word) : NULL, NULL,
+                   "events.steps.%s", word);
     br_put_shown(d, "%zu (%.4g %%)", steps, all ? 100 * (double)steps / (double)all : 0);
+}
+
+static void put_event(struct br_document *d, const struct br_tip_event *e)
+{
+    const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
+    br_put_row(d);
+    BR_PUT(d, br_number(e->time), .key = "t", .unit = "s", .format = "%.10g");
+    BR_PUT(d, br_text(br_tip_event_words[e->kind]), .key = "event");
+    BR_PUT(d, br_if(e->direction, sign), .key = "direction");
+    br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
+    BR_PUT(d, br_count(e->step), .key = "step");
 }
 
 static void put_events(struct br_document *d, const struct br_run_report *r)
 {
-    static const struct br_column columns[] = {{.key = "t", .unit = "s", .format = "%.10g"},
-                                               {.key = "event"},
-                                               {.key = "direction"},
-                                               {.key = "step"}};
     const struct br_tip_watch *w = &r->watch;
     br_put_section(d, "Events at the tip");
     br_put_note(d,
@@ -320,14 +318,11 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
     put_steps(d, w->contact, "closed", w->closed_steps, w->steps);
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
         put_steps(d, w->friction, br_tip_regime_words[regime], w->regime_steps[regime], w->steps);
-    BR_TABLE(d, "events", "When", 0, columns);
-    for (const struct br_tip_event *e = w->event; e < w->event + w->events; e++) {
-        const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
-        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_words[e->kind]),
-                   br_if(e->direction, sign));
-        br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
-        BR_PUT_CELLS(d, br_count(e->step));
-    }
+    br_put_table(d, "events", "When", 0);
+    put_event(d, &(struct br_tip_event){0});
+    br_put_no_row(d);
+    for (size_t i = 0; i < w->events; i++)
+        put_event(d, &w->event[i]);
     if (r->method.scheme->adaptive)
         put_switches(d, r);
 }
@@ -339,10 +334,8 @@ static void put_state(struct br_document *d, const struct br_run_report *r, bool
                       const struct br_energy *e)
 {
     const char *of = end ? "end" : "start";
-    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J",
-            end ? "energies.end.kinetic" : "energies.start.kinetic");
-    put_two(d, r, e->stored, end ? "stored" : NULL, "J",
-            end ? "energies.end.stored" : "energies.start.stored");
+    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J", br_format(d, "energies.%s.kinetic", of));
+    put_two(d, r, e->stored, end ? "stored" : NULL, "J", br_format(d, "energies.%s.stored", of));
     br_put_fact_as(d, br_if(r->marched.contact.modelled, br_number(e->contact)),
                    end ? "of the contact" : NULL, "J", "energies.%s.contact", of);
     br_put_fact_as(d, br_number(br_energy_total(e)), end ? "total" : "total at t = 0", "J",
@@ -464,9 +457,8 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
         br_put_section(d, "Derived from what the scene gives");
     for (const struct br_derived *n = scene->derived; n->what; n++) {
         const char *dot = strchr(n->what, '.');
-        char heading[80];
-        snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
-                 dot ? " " : "", dot ? dot + 1 : n->what, n->from);
+        const char *heading = br_format(d, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
+                                        dot ? " " : "", dot ? dot + 1 : n->what, n->from);
         br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
     }
 
@@ -481,10 +473,9 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     }
     for (size_t i = 0; i < f->warnings->count; i++) {
         const struct br_warning *w = &f->warnings->list[i];
-        char key[80];
-        snprintf(key, sizeof key, "remedies.%s", br_warning_words[w->kind]);
         br_put_note(d, "Warning: %s.", w->text);
-        br_put_command(d, key, "Remedy", w->remedy);
+        br_put_command(d, br_format(d, "remedies.%s", br_warning_words[w->kind]), "Remedy",
+                       w->remedy);
     }
 
     static const char *const labels[] = {"  of the axial field", "  of the bending field"};

@@ -6,15 +6,13 @@
 #include "study/trade/split.h"
 #include "tables/beam/report_parts.h"
 
-enum { TEXT = 640 };
-
 /* "n = 100, k = 0.01 s: scheme euler, solver riccati on avx2, contact lagged" */
-static const char *describe(const struct br_split *s, char text[TEXT])
+static const char *describe(struct br_document *d, const struct br_split *s)
 {
     char method[BR_METHOD_TEXT];
-    snprintf(text, TEXT, "n = %zu, k = %.10g s: %s", s->at.n, br_time_step(s->scene, s->at.steps),
-             br_method_text(&(struct br_meshes){s->scene, &s->at.n, 1}, &s->method, method));
-    return text;
+    return br_format(
+        d, "n = %zu, k = %.10g s: %s", s->at.n, br_time_step(s->scene, s->at.steps),
+        br_method_text(&(struct br_meshes){s->scene, &s->at.n, 1}, &s->method, method));
 }
 
 /* "99.8 %"; of a share of 0 to 1 */
@@ -31,18 +29,16 @@ static bool is_known(const struct br_share *share, size_t norm)
 /* "n = 100, ... Error 7.437e-04 m^(3/2), by parts: lag 99.6 %, time 0.2 %, space 0.2 %." */
 static void answer_run(struct br_document *d, const struct br_split *s)
 {
-    char run[TEXT];
-    const char *between = "";
-    br_put_answer(d, "%s. Error %.3e %s, by parts: ", describe(s, run),
+    br_put_list(d, "", ", ");
+    br_put_answer(d, "%s. Error %.3e %s, by parts: ", describe(d, s),
                   s->whole.error[0][BR_PART_TOTAL], s->norm[0]->unit);
     for (size_t i = 0; i < BR_SOURCES; i++)
         if (is_known(&s->share[i], 0)) {
             const double share = br_share_of_sum(s, &s->share[i], 0, BR_PART_TOTAL);
-            br_put_more(d, "%s%s ", between, s->share[i].name);
+            br_put_item(d, "%s ", s->share[i].name);
             br_put_more(d, share_format(share), 100 * share);
-            between = ", ";
         }
-    br_put_more(d, *between ? "." : "none can be determined.");
+    br_put_more(d, d->items ? "." : "none can be determined.");
     if (s->unstable)
         br_put_more(d, " The lagged contact is beyond its stability limit: its part is bounded "
                        "chatter.");
@@ -105,11 +101,10 @@ static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 /* For people: a table for each run and norm, with the existing components. */
 static void put_run_for_people(struct br_document *d, const struct br_split *s)
 {
-    char title[TEXT + 64], run[TEXT];
     for (size_t m = 0; m < s->norms; m++) {
-        snprintf(title, sizeof title, "%s; %s, %s", describe(s, run), s->norm[m]->name,
-                 s->norm[m]->unit);
-        br_put_table(d, "run", title, BR_FOR_PEOPLE);
+        br_put_table(d, "run",
+                     br_format(d, "%s; %s, %s", describe(d, s), s->norm[m]->name, s->norm[m]->unit),
+                     BR_FOR_PEOPLE);
         for (size_t i = 0; i < BR_SOURCES + OTHERS; i++) {
             if (i < BR_SOURCES && s->share[i].none)
                 continue;

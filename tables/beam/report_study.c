@@ -17,31 +17,28 @@ bool br_part_is_shown(const struct br_report *r, enum br_part part)
 /* ---- grids, for people: a row for each mesh, a column for each time step ---- */
 
 struct grid {
-    const char *key;
+    const char *key, *title;
     const struct br_study *study;
     enum br_part part;
     double (*value)(const struct br_report *r, size_t cell); /* NULL: the study's errors */
-    const char *format;
+    const char *format;                                      /* NULL: of errors */
     unsigned flags;
 };
 
-static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
-                     const char *title)
+static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g)
 {
     static const char *const marks[BR_CELL_FLAGS] = {"", "R", "F", "X", "U", "S"};
     const struct br_study *s = g->study;
-    char buffer[64];
-    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);
+    br_put_table(d, g->key, g->title, BR_FOR_PEOPLE | g->flags);
     for (size_t i = 0; i < s->n_count; i++) {
         br_put_row(d);
         BR_PUT(d, br_count(s->n[i]), .key = "n");
         for (size_t j = 0; j < s->k_count; j++) {
             const struct br_cell *c = br_study_cell(s, i, j);
             const double value = g->value ? g->value(r, i * s->k_count + j) : c->error[g->part];
-            char key[32];
-            snprintf(key, sizeof key, "steps%zu", s->steps[j]);
-            snprintf(buffer, sizeof buffer, "k = %g", br_time_step(s->scene, s->steps[j]));
-            BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
+            BR_PUT(d, br_number(value), .key = br_format(d, "steps%zu", s->steps[j]),
+                   .heading = br_format(d, "k = %g", br_time_step(s->scene, s->steps[j])),
+                   .format = g->format ? g->format : "%.3e");
             br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
         }
     }
@@ -57,25 +54,17 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
 {
     static const char *const names[] = {"Total", "Axial", "Bending"};
     const bool fitted = s == r->fitted;
-    char title[200];
-    const struct grid g = {
-        .key = fitted ? br_part_names[part] : s->reference_kind->name,
-        .study = s,
-        .part = part,
-        .format = "%.3e",
-        .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
-    };
-    snprintf(title, sizeof title, "%s error against %s, %s", names[part], s->reference_kind->name,
-             s->norm->unit);
-    put_grid(d, r, &g, title);
+    put_grid(d, r,
+             &(struct grid){.key = fitted ? br_part_names[part] : s->reference_kind->name,
+                            .title = br_format(d, "%s error against %s, %s", names[part],
+                                               s->reference_kind->name, s->norm->unit),
+                            .study = s,
+                            .part = part,
+                            .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY});
 }
 
 static void put_grids(struct br_document *d, const struct br_report *r)
 {
-    const struct grid printed = {"printed", r->study, .value = printed_of, .format = "%.3e",
-                                 .flags = BR_FILES_ONLY};
-    const struct grid ratio = {"ratio", r->study, .value = br_report_ratio, .format = "%.3f"};
-    char title[64];
     for (enum br_part part = 0; part < BR_PARTS; part++)
         if (br_part_is_shown(r, part))
             put_error_grid(d, r, r->fitted, part);
@@ -83,9 +72,14 @@ static void put_grids(struct br_document *d, const struct br_report *r)
         put_error_grid(d, r, r->study, BR_PART_TOTAL);
     if (!r->printed)
         return;
-    put_grid(d, r, &printed, "Printed error, m^(3/2)");
-    snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->reference_kind->name);
-    put_grid(d, r, &ratio, title);
+    put_grid(d, r,
+             &(struct grid){"printed", "Printed error, m^(3/2)", r->study, .value = printed_of,
+                            .flags = BR_FILES_ONLY});
+    put_grid(d, r,
+             &(struct grid){
+                 "ratio",
+                 br_format(d, "Ours (against %s) over printed", r->study->reference_kind->name),
+                 r->study, .value = br_report_ratio, .format = "%.3f"});
 }
 
 /* ---- lists ---- */

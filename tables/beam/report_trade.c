@@ -7,8 +7,6 @@
 #include "study/trade/trade.h"
 #include "tables/beam/report_parts.h"
 
-enum { TEXT = 1024 };
-
 /* k, s; NaN where the scheme chooses its steps. */
 static double step_of(const struct br_scene *scene, const struct br_trial *t)
 {
@@ -32,28 +30,21 @@ static void put_trial(struct br_document *d, const struct br_scene *scene, const
         br_put_shown(d, "tol %.4g", t->tolerance);
 }
 
-/* "bdf2, n = 100, k = 0.01 s", or "adaptive, n = 100, tolerance 0.0001"; returns `text`. */
-enum { TRIAL_TEXT = 160 };
-static const char *trial_text(const struct br_scene *scene, const struct br_trial *t,
-                              char text[TRIAL_TEXT])
+/* "bdf2, n = 100, k = 0.01 s", or "adaptive, n = 100, tolerance 0.0001" */
+static const char *trial_text(struct br_document *d, const struct br_scene *scene,
+                              const struct br_trial *t)
 {
     if (t->named->method.scheme->adaptive)
-        snprintf(text, TRIAL_TEXT, "%s, n = %zu, tolerance %.4g", t->named->name, t->at.n,
-                 t->tolerance);
-    else
-        snprintf(text, TRIAL_TEXT, "%s, n = %zu, k = %.6g s", t->named->name, t->at.n,
-                 step_of(scene, t));
-    return text;
+        return br_format(d, "%s, n = %zu, tolerance %.4g", t->named->name, t->at.n, t->tolerance);
+    return br_format(d, "%s, n = %zu, k = %.6g s", t->named->name, t->at.n, step_of(scene, t));
 }
 
 /* "bdf2, n = 100, k = 0.01 s; 1.2e-05 CPU s, relative error 3.45e-04" */
-static const char *describe(const struct br_trade *t, size_t i, char text[TEXT])
+static const char *describe(struct br_document *d, const struct br_trade *t, size_t i)
 {
-    char trial[TRIAL_TEXT];
-    snprintf(text, TEXT, "%s; %.3g CPU s, relative error %.2e",
-             trial_text(t->request.scene, &t->trial[i], trial), br_trial_seconds(&t->trial[i]),
-             br_trial_relative(&t->trial[i]));
-    return text;
+    return br_format(d, "%s; %.3g CPU s, relative error %.2e",
+                     trial_text(d, t->request.scene, &t->trial[i]), br_trial_seconds(&t->trial[i]),
+                     br_trial_relative(&t->trial[i]));
 }
 
 /* Errors that an answer names: 1e-3, 1e-6, 1e-9. */
@@ -62,7 +53,6 @@ enum { ANSWERED = sizeof answered / sizeof *answered };
 
 static void answer_cheapest(struct br_document *d, const struct br_trade *t)
 {
-    char text[TEXT];
     for (size_t i = 0; i < ANSWERED; i++) {
         const size_t best = t->best[answered[i]];
         const double target = br_trade_target(answered[i]);
@@ -70,22 +60,21 @@ static void answer_cheapest(struct br_document *d, const struct br_trade *t)
             br_put_answer(d, "No trial has an error of %.0e or less.", target);
             return;
         }
-        br_put_answer(d, "To an error of %.0e: %s.", target, describe(t, best, text));
+        br_put_answer(d, "To an error of %.0e: %s.", target, describe(d, t, best));
     }
 }
 
 static void answer_front(struct br_document *d, const struct br_trade *t)
 {
-    char text[TEXT];
     const size_t fastest = br_work_next(t->point, t->count, t->count);
     size_t best = fastest;
     for (size_t i = best; i < t->count; i = br_work_next(t->point, t->count, i))
         best = i;
     if (best < t->count)
         br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
-                      describe(t, fastest, text));
+                      describe(d, t, fastest));
     if (best != fastest)
-        br_put_answer(d, "Most accurate: %s.", describe(t, best, text));
+        br_put_answer(d, "Most accurate: %s.", describe(d, t, best));
 }
 
 /* The cost of the paper's method to the smallest target that it reaches. */
@@ -180,26 +169,25 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
 
 /* ---- a goal ---- */
 
-/* "1e-3", or of an achieved error two digits, "4.5e-4"; returns `text` (out). */
-enum { ERROR_TEXT = 32 };
-static const char *error_text(double error, bool achieved, char text[ERROR_TEXT])
+/* "1e-3", or of an achieved error two digits, "4.5e-4" */
+static const char *error_text(struct br_document *d, double error, bool achieved)
 {
+    char text[32];
     int digits = achieved;
     do {
-        snprintf(text, ERROR_TEXT, "%.*e", digits, error);
+        snprintf(text, sizeof text, "%.*e", digits, error);
     } while (!achieved && strtod(text, NULL) != error && digits++ < 16);
     char *power = strchr(text, 'e');
     if (power && power[1] == '-' && power[2] == '0')
         memmove(power + 2, power + 3, strlen(power + 3) + 1);
-    return text;
+    return br_format(d, "%s", text);
 }
 
 /* "Cheapest way to 1e-3: bdf2+p2, n = 3, k = 0.1 s (error 4.5e-4)." */
 static void answer_goal(struct br_document *d, const struct br_trade *t)
 {
-    char trial[TRIAL_TEXT], goal[ERROR_TEXT], error[ERROR_TEXT];
     const struct br_trial *best = &t->trial[t->chosen];
-    error_text(t->goal.error, false, goal);
+    const char *goal = error_text(d, t->goal.error, false);
     if (t->chosen == t->count) {
         if (t->goal.error > 0)
             br_put_answer(d, "No trial has an error of %s or less.", goal);
@@ -212,8 +200,8 @@ static void answer_goal(struct br_document *d, const struct br_trade *t)
         br_put_answer(d, "Cheapest way to %s: ", goal);
     else
         br_put_answer(d, "Least error within %g CPU s: ", t->goal.seconds);
-    br_put_more(d, "%s (error %s).", trial_text(t->request.scene, best, trial),
-                error_text(br_trial_bound(best), true, error));
+    br_put_more(d, "%s (error %s).", trial_text(d, t->request.scene, best),
+                error_text(d, br_trial_bound(best), true));
     br_put_answer(d, "It takes %.3g CPU s for %zu steps.", br_trial_seconds(best),
                   best->cost.counts.steps);
 }
@@ -226,19 +214,20 @@ static void put_commands(struct br_document *d, const struct br_trade *t, const 
         return;
     const struct br_trial *best = &t->trial[t->chosen];
     const struct br_method method = br_trial_method(best);
-    const bool usual = t->request.norm == br_norms[0];
-    char options[BR_METHOD_TEXT], step[64], line[2 * LONGEST];
-    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", words, best->at.n,
-             best->at.steps, br_method_options(t->request.scene, &method, options));
-    br_put_command(d, "run", "To march it", line);
+    char options[BR_METHOD_TEXT];
+    br_put_command(d, "run", "To march it",
+                   br_format(d, "beamrate run %s --n %zu --k T/%zu%s", words, best->at.n,
+                             best->at.steps,
+                             br_method_options(t->request.scene, &method, options)));
+    br_put_command(d, "trade", "To measure it again",
+                   br_format(d, "beamrate trade %s --methods %s --n %zu ", words, best->named->name,
+                             best->at.n));
     if (best->named->method.scheme->adaptive)
-        snprintf(step, sizeof step, "--tolerance %.15g", best->tolerance);
+        br_put_more(d, "--tolerance %.15g", best->tolerance);
     else
-        snprintf(step, sizeof step, "--k T/%zu", best->at.steps);
-    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", words,
-             best->named->name, best->at.n, step, usual ? "" : " --norm ",
-             usual ? "" : t->request.norm->name);
-    br_put_command(d, "trade", "To measure it again", line);
+        br_put_more(d, "--k T/%zu", best->at.steps);
+    if (t->request.norm != br_norms[0])
+        br_put_more(d, " --norm %s", t->request.norm->name);
 }
 
 /* The trial of each method that is best for the goal. */
@@ -276,7 +265,6 @@ static void note_reference(struct br_document *d, const struct br_trade *t)
 
 static void put_answers(struct br_document *d, const struct br_trade *t, const char *words)
 {
-    const char *between = "";
     if (br_trade_has_goal(t)) {
         answer_goal(d, t);
     } else {
@@ -285,11 +273,10 @@ static void put_answers(struct br_document *d, const struct br_trade *t, const c
         answer_paper(d, t);
     }
     br_put_answer(d, "Trials: ");
+    br_put_list(d, "", ", ");
     for (enum br_trial_end end = BR_TRIAL_DONE; end < BR_TRIAL_ENDS; end++)
-        if (br_trade_tally(t, end)) {
-            br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_names[end]);
-            between = ", ";
-        }
+        if (br_trade_tally(t, end))
+            br_put_item(d, "%zu %s", br_trade_tally(t, end), br_trial_end_names[end]);
     br_put_more(d, ".");
     if (t->forecast.left)
         br_put_answer(d,
@@ -309,10 +296,10 @@ static void put_methods(struct br_document *d, const struct br_trade *t)
         for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
             const size_t best = t->best_of[c][i];
             const bool reached = best < t->count;
-            char key[32];
-            snprintf(key, sizeof key, "seconds_to_%.0e", br_trade_target(i));
-            BR_PUT(d, br_number(reached ? br_trial_seconds(&t->trial[best]) : NAN), .key = key,
-                   .heading = key + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
+            const char *target = br_format(d, "%.0e", br_trade_target(i));
+            BR_PUT(d, br_number(reached ? br_trial_seconds(&t->trial[best]) : NAN),
+                   .key = br_format(d, "seconds_to_%s", target), .heading = target, .unit = "s",
+                   .format = "%.2g");
         }
     }
 }
@@ -386,19 +373,16 @@ void br_report_trade(const struct br_trade *t, const char *words,
 /* "example1: to 1e-03 bdf2, n = 100, k = 0.01 s (1e-05 CPU s); to 1e-06 ..." */
 static void answer_scene(struct br_document *d, const struct br_trade *t)
 {
-    char trial[TRIAL_TEXT];
-    const char *between = "";
     br_put_answer(d, "%s:", t->request.scene->name);
+    br_put_list(d, " ", "; ");
     for (size_t i = 0; i < ANSWERED; i++) {
         const size_t best = t->best[answered[i]];
-        if (best == t->count)
-            continue;
-        br_put_more(d, "%s to %.0e %s (%.3g CPU s)", between, br_trade_target(answered[i]),
-                    trial_text(t->request.scene, &t->trial[best], trial),
-                    br_trial_seconds(&t->trial[best]));
-        between = ";";
+        if (best < t->count)
+            br_put_item(d, "to %.0e %s (%.3g CPU s)", br_trade_target(answered[i]),
+                        trial_text(d, t->request.scene, &t->trial[best]),
+                        br_trial_seconds(&t->trial[best]));
     }
-    br_put_more(d, *between ? "." : " no trial has an error of 1e-03 or less.");
+    br_put_more(d, d->items ? "." : " no trial has an error of 1e-03 or less.");
 }
 
 void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,

@@ -51,7 +51,8 @@ static void write_key(FILE *out, const struct br_scene_key *key)
                                                            : "";
     const int width = fprintf(out, "%s%s%s:%s%s", *key->section ? "  " : "", live ? "" : "# ",
                               key->name, *key->example ? " " : "", key->example);
-    fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "", key->help, constraint);
+    fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "",
+            br_scene_key_help(key, (char[BR_KEY_HELP]){0}), constraint);
     write_default(out, key);
     fputc('\n', out);
 }

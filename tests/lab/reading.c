@@ -524,12 +524,22 @@ static bool is_number(const char *text)
     return *end == '\0';
 }
 
+/* Whether a word of the heading comes twice: apart by blanks, it may be a part of two names. */
+static bool repeats_a_word(const struct grid *g)
+{
+    bool repeats = false;
+    for (size_t i = 0; i < g->columns; i++)
+        for (size_t j = 0; j < i; j++)
+            repeats |= strcmp(g->field[0][i], g->field[0][j]) == 0;
+    return repeats;
+}
+
 /* Whether a table is simple: a heading of words, and rows of numbers. */
 static bool split(const struct table_case *c, struct grid *g)
 {
     static const char separators[] = "|\t,; 2";
     for (size_t s = 0; s < 6; s++) {
-        bool simple = split_by(c, separators[s], g);
+        bool simple = split_by(c, separators[s], g) && !(separators[s] == ' ' && repeats_a_word(g));
         for (size_t i = 0; simple && i < g->rows; i++)
             for (size_t j = 0; j < g->columns; j++)
                 simple &= i ? is_number(g->field[i][j])

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/estimate/warnings.h"
+#include "study/grid/costs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -112,6 +112,6 @@ enum br_status br_fit_together(const struct br_study *studies, size_t count, dou
         return BR_OK;
     return br_fail(err, BR_NO_MEMORY,
                    "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
-                   "of them, or fewer elements",
+                   "of them, fewer elements, or longer steps",
                    w.marches, w.bytes / 1e9, available / 1e9);
 }
