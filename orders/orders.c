@@ -154,6 +154,7 @@ static void take_exponential(struct br_case *c, const struct br_case *by)
     if (!all)
         return;
     c->factor = (struct br_estimate){exp(by->order.value), exp(by->order.low), exp(by->order.high)};
+    c->exponential = 1;
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].flag = by->point[i].flag;
         c->point[i].lost = false;
@@ -229,20 +230,41 @@ static bool holds(const struct br_estimate *interval, const struct br_estimate *
     return interval->low <= order->value && order->value <= interval->high;
 }
 
+/* The last of the points that were not left out before their order was sought; NULL: none. */
+static const struct br_point *finest_of(const struct br_case *c)
+{
+    for (size_t i = c->points; i-- > 0;)
+        if (!c->point[i].flag || c->point[i].lost)
+            return &c->point[i];
+    return NULL;
+}
+
+/* Whether two lines show one order. Wide intervals above zero agree about any: then the finest
+ * error must be almost the same at both sizes of the other axis, whose error is small beside it. */
+static bool show_the_same(const struct br_case *a, const struct br_case *b)
+{
+    static const double narrow = 0.3, share = 0.1;
+    const struct br_point *finest = finest_of(a);
+    bool small = fmax(width_of(&a->order), width_of(&b->order)) <= narrow || a->order.low <= 0;
+    for (size_t i = 0; i < b->points && finest && !small; i++)
+        small = !(b->point[i].z < finest->z) && !(b->point[i].z > finest->z) &&
+                fabs(b->point[i].error - finest->error) <= share * finest->error;
+    return small && holds(&a->order, &b->order) && holds(&b->order, &a->order);
+}
+
 /* The answer of a grid of errors without a joint fit: the order of a line only if the line at the
  * next size shows the same one, else the error of the other axis bends it. */
 static struct br_orders_answer answer_of_lines(const struct br_quantity_orders *of,
                                                const struct br_orders_line *finest)
 {
     static const char *const bent[BR_AXES] = {
-        "the order in h is not the same at the two finest k, and no joint fit describes the "
+        "the two finest k do not show one order in h, and no joint fit describes the "
         "errors: a finer k, or more sizes of both, would show it",
-        "the order in k is not the same at the two finest h, and no joint fit describes the "
+        "the two finest h do not show one order in k, and no joint fit describes the "
         "errors: a finer h, or more sizes of both, would show it"};
     const struct br_orders_line *next = finest > of->line ? finest - 1 : NULL;
     const struct br_estimate *a = &finest->observed.order;
-    if (next && next->axis == finest->axis && holds(a, &next->observed.order) &&
-        holds(&next->observed.order, a))
+    if (next && next->axis == finest->axis && show_the_same(&finest->observed, &next->observed))
         return (struct br_orders_answer){*a, NULL, .line = finest};
     return (struct br_orders_answer){{NAN, NAN, NAN}, bent[finest->axis], .line = finest};
 }
@@ -315,15 +337,6 @@ static struct br_orders_answer believed(struct br_orders_answer a, double formal
     if (a.open)
         a.order = (struct br_estimate){NAN, NAN, NAN};
     return a;
-}
-
-/* The last of the points that were not left out before their order was sought; NULL: none. */
-static const struct br_point *finest_of(const struct br_case *c)
-{
-    for (size_t i = c->points; i-- > 0;)
-        if (!c->point[i].flag || c->point[i].lost)
-            return &c->point[i];
-    return NULL;
 }
 
 /* Whether the differences of the other axis show that its error is not small beside the finest one

@@ -981,6 +981,27 @@ TEST(test_limit_of_a_grid)
     assert_true(isnan(found.orders.of[0].limit.value.value));
 }
 
+static double weak_singularity(double h, double k)
+{
+    return pow(h / 8, 2) * log(8 / h) + 0.2 * pow(k / 8, 1.5);
+}
+
+/* Three sizes distinguish no law, and wide intervals of two lines agree about any order. */
+TEST(test_three_sizes_of_a_logarithm)
+{
+    static const char six_digits[] =
+        "h,k,l2\n12,4,0.435642\n12,2,0.299113\n12,1,0.250843\n6,4,0.312686\n6,2,0.176157\n"
+        "6,1,0.127887\n3,4,0.254905\n3,2,0.118377\n3,1,0.070107\n"; /* h^1.5 log(1/h) + k^1.5 */
+    find(grid_of(3, 3, weak_singularity), NULL);
+    const struct br_estimate *order = &found.orders.of[0].answer[BR_AXIS_SPACE].order;
+    if (!(order->low <= 2 && order->high >= 1.995))
+        fail_msg("the order is 2, found %g to %g", order->low, order->high);
+    find(six_digits, NULL);
+    order = &found.orders.of[0].answer[BR_AXIS_SPACE].order;
+    if (br_order_determined(order) && order->high < 1.5)
+        fail_msg("the order is 1.5, found %g to %g", order->low, order->high);
+}
+
 TEST(test_verdicts)
 {
     enum { REFUSED_ONE = -1 };
@@ -992,6 +1013,8 @@ TEST(test_verdicts)
                       drag[] = "h,u\n1,4\n.5,2\n.25,1.5\n.125,1.375\n.0625,1.34375\n";
     static const char spectral[] = "n,l2\n2,.01562\n3,.001953\n4,2.441e-4\n5,3.052e-5\n"
                                    "6,3.815e-6\n7,4.768e-7\n";
+    /* against a reference of a size near the finest */
+    static const char rises[] = "h,l2\n.1,1\n.05,.57196\n.025,.26775\n.0125,.093036\n";
     static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n",
                       two[] = "h,Eh,eH\n1,4,4\n.5,1,1\n.25,.25,.25\n.125,.0625,.0625\n";
     static const char cases[] = "m,n,l2\nA,1,1\nA,2,.25\nA,4,.0625\nA,8,.015625\nB,1,1\nB,2,.5\n"
@@ -1041,6 +1064,8 @@ TEST(test_verdicts)
         {spectral, NULL, "l2: h exponential 9 +- 0.5", BR_FAIL, "one more of 1/h divides"},
         {spectral, NULL, "l2: h 4 +- 0.5", BR_FAIL, "the errors fall exponentially, by no order"},
         {line, NULL, "l2: h exponential 8 +- 0.5", BR_FAIL, "their order is 2.00"},
+        {rises, NULL, "l2: h 1 +- 0.1", BR_INCONCLUSIVE, "may fall exponentially, with a"},
+        {rises, NULL, "exponential >= 1.01", BR_INCONCLUSIVE, "exponentially, with a probability"},
         {drag, "u", "u: h 2 +- 0.1", BR_PASS, ""},
         {line, NULL, "2", BR_PASS, ""},
         {line, NULL, "L2 = 2", BR_PASS, ""},

@@ -73,6 +73,7 @@ struct br_case {
                                   lies outside is excluded */
     struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
                                   NaN: it is none, or that of n^g */
+    double exponential;        /* the probability of such convergence, of any g */
     const char *window;        /* rows by hand, "the 3 finest of 6"; NULL: all; borrowed */
     enum br_law law;           /* what explains the errors best; BR_LAW_POWER: one power alone */
     double constant;           /* the largest of the finest five used points'; NaN: none */

@@ -95,6 +95,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
     c->low99 = found.low99;
     c->high99 = found.high99;
     c->factor = br_exponential_factor(&found);
+    c->exponential = found.law[BR_LAW_EXPONENTIAL];
     for (enum br_law law = BR_LAW_LOWER; law < BR_LAWS; law++)
         c->law = found.law[law] > 0.5 ? law : c->law;
     const bool known = isfinite(found.order.value) || isfinite(found.rate.value);
@@ -450,6 +451,18 @@ static const char *one_more(const struct br_case *c)
                                        : "one more of 1/h";
 }
 
+/* As of an interval, 95 % pass a verdict and 99 % fail it. */
+static const double passes = 0.95, fails = 0.99;
+
+/* Neither exponential convergence nor an order is sure. */
+static void conclude_either(struct br_case *c)
+{
+    conclude(c, BR_INCONCLUSIVE,
+             "the errors may fall exponentially, with a probability of %.0f %%, or by an order: "
+             "finer grids would show which",
+             100 * c->exponential);
+}
+
 /* Exponential convergence has no order, and an order is no such convergence. */
 static void decide_factor(struct br_case *c)
 {
@@ -457,8 +470,10 @@ static void decide_factor(struct br_case *c)
     const struct br_estimate *f = &c->factor;
     char text[64], band[64];
     c->margin = fmin(f->low - low, high - f->high);
-    if (f->low >= low && f->high <= high)
+    if (f->low >= low && f->high <= high && c->exponential >= passes)
         conclude(c, BR_PASS, "%s", "");
+    else if (c->exponential > 1 - fails && c->exponential < passes)
+        conclude_either(c);
     else if (isfinite(f->value))
         conclude(c, exp(c->high99) < low || exp(c->low99) > high ? BR_FAIL : BR_INCONCLUSIVE,
                  "%s divides the errors by %s, expected %s", one_more(c),
@@ -517,13 +532,15 @@ static void decide_order(struct br_case *c)
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
         advise(c);
-    } else if (c->factor.low > 1 && is_fast(c))
+    } else if (c->factor.low > 1 && is_fast(c) && c->exponential >= passes)
         conclude(c, BR_PASS, "%s", ""); /* exponential: faster than any order */
     else if (first < last && last <= high)
         conclude(c, BR_INCONCLUSIVE,
                  "the orders from size to size rise to %.2f: finer grids would show "
                  "whether they stop there",
                  last);
+    else if (c->exponential > 0.5 && c->exponential < fails)
+        conclude_either(c);
     else if (isfinite(c->factor.value))
         conclude(c, BR_FAIL, "the errors fall exponentially, by no order: %s divides them by %s",
                  one_more(c), br_order_text(&c->factor, text, sizeof text));
@@ -559,6 +576,7 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     begin_note(c);
     c->low99 = c->high99 = NAN;
     c->factor = (struct br_estimate){NAN, NAN, NAN};
+    c->exponential = 0;
     c->law = BR_LAW_POWER;
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};

@@ -29,6 +29,21 @@ size_t br_joint_unknowns(const struct br_joint_law *law, int unknown[BR_UNKNOWNS
     return count;
 }
 
+size_t br_joint_sizes(const struct br_joint_cells *c, int axis)
+{
+    size_t sizes = 0;
+    bool differs = false;
+    for (size_t j = 1; j < c->sizes[axis]; j++) {
+        bool here = false;
+        for (size_t i = 0; i < c->count; i++) {
+            here |= c->cell[i].at[axis] == j;
+            differs |= c->cell[i].at[axis] != c->cell[i].against[axis];
+        }
+        sizes += here;
+    }
+    return differs ? sizes : 0;
+}
+
 /* ---- the model ---- */
 
 /* The logarithm of the correction by a law at a size, v: the unknowns of the axis. */
@@ -175,6 +190,11 @@ double br_joint_share(const struct br_joint_cells *cells, int axis)
  * are taken for other orders in 9 % of grids, with this in 3 %. */
 static const double one_power = 0.2;
 
+/* Three sizes distinguish no law from another: each leads through them. Then each has the prior of
+ * a usual one. */
+static const double usual = 0.1;
+enum { ALIKE = 3 };
+
 struct normal {
     double mean, deviation;
 };
@@ -206,6 +226,11 @@ static struct normal prior_of(const struct br_joint_cells *cells, const struct b
     }
 }
 
+static bool alike(const struct br_joint_cells *cells, int unknown)
+{
+    return br_joint_sizes(cells, unknown / BR_OF_AXIS) <= ALIKE;
+}
+
 double br_joint_log_prior(const struct br_joint_cells *cells, const struct br_joint_trial *trial)
 {
     static const double usual_next = 0.3, of_sum[BR_SUMS] = {0.4, 0.3, 0.1};
@@ -220,7 +245,8 @@ double br_joint_log_prior(const struct br_joint_cells *cells, const struct br_jo
         if (f && f->law == BR_LAW_NEXT) /* heavier tails, and three rows of the table in one */
             sum += log(2.25 * f->prior / M_PI / usual_next) - log1p(pow(value / usual_next, 2));
         else
-            sum += -at * at / 2 - log(p.deviation * sqrt(2 * M_PI)) + (f ? log(f->prior) : 0);
+            sum += -at * at / 2 - log(p.deviation * sqrt(2 * M_PI)) +
+                   (f ? log(alike(cells, unknown[i]) ? usual : f->prior) : 0);
     }
     for (int a = 0; a < BR_AXES; a++)
         sum += br_joint_has(law->kind, a) && !law->of[a] ? log(one_power) : 0;

@@ -68,6 +68,9 @@ struct br_joint_trial {
 /* The unknowns of a law; their number. */
 size_t br_joint_unknowns(const struct br_joint_law *law, int unknown[BR_UNKNOWNS]);
 
+/* The number of sizes of an axis; 0: no cell differs from its reference in it. */
+size_t br_joint_sizes(const struct br_joint_cells *cells, int axis);
+
 /* Where the search for a law begins: at these orders and this r. */
 void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AXES], double r,
                     double value[BR_UNKNOWNS]);

@@ -68,22 +68,6 @@ static void take_cells(struct br_joint_search *s, const struct br_point *o)
         take_sizes(s, o, a, value);
 }
 
-/* The number of sizes of an axis; 0: no cell differs from its reference in it. */
-static size_t sizes_of(const struct br_joint_cells *c, int axis)
-{
-    size_t sizes = 0;
-    bool differs = false;
-    for (size_t j = 1; j < c->sizes[axis]; j++) {
-        bool here = false;
-        for (size_t i = 0; i < c->count; i++) {
-            here |= c->cell[i].at[axis] == j;
-            differs |= c->cell[i].at[axis] != c->cell[i].against[axis];
-        }
-        sizes += here;
-    }
-    return differs ? sizes : 0;
-}
-
 /* A fit needs more cells than unknowns, and that of an axis more sizes: one that goes through all
  * of them shows nothing. */
 static bool enough(const struct br_joint_search *s, const struct br_joint_law *law)
@@ -96,7 +80,7 @@ static bool enough(const struct br_joint_search *s, const struct br_joint_law *l
     bool good = weight >= (double)br_joint_unknowns(law, unknown) + spare;
     for (int a = 0; a < BR_AXES; a++)
         good = good && (!br_joint_has(law->kind, a) ||
-                        sizes_of(&s->used, a) >= (law->of[a] && s->now > 0 ? 4 : 3));
+                        br_joint_sizes(&s->used, a) >= (law->of[a] && s->now > 0 ? 4 : 3));
     return good;
 }
 
@@ -366,7 +350,7 @@ static bool is_exact(const struct br_joint_search *s, const struct br_joint_tria
         digits_make +=
             s->used.cell[i].weight * (least * least + digits * pow(s->used.cell[i].rounded, 2));
     for (int a = 0; a < BR_AXES; a++)
-        spare = spare && (!t->law.of[a] || sizes_of(&s->used, a) > (t->law.floor ? 4 : 3));
+        spare = spare && (!t->law.of[a] || br_joint_sizes(&s->used, a) > (t->law.floor ? 4 : 3));
     return spare && t->sum <= digits_make;
 }
 

@@ -225,6 +225,8 @@ static const struct br_grid_class {
     {"constant, 2 % noise", BR_NO_ORDER, {.noise = .02, .least = 3, .most = 6, .kind = BR_GRID_STAYS}},
     {"grows, 5 % noise", BR_NO_ORDER, {.noise = .05, .least = 3, .most = 6, .kind = BR_GRID_GROWS}},
     {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
+    {"logarithm and power, 3 x 3", BR_HARD_ERRORS,
+     {.least_r = 1, .most_r = 1, .logarithm = true, .least = 3, .most = 3}},
 };
 /* clang-format on */
 enum { BR_GRID_CLASSES = sizeof br_grid_classes / sizeof *br_grid_classes };
