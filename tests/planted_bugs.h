@@ -672,10 +672,8 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_watched test_one_branch", "f->law = br_worse_of(law, f->law);", "f->law = law;"},
     {"either_line_holds", "order", "orders/orders.c",
      "tests/test_orders test_orders_that_a_grid_hides",
-     "if (next && next->axis == finest->axis && holds(a, &next->observed.order) &&\n"
-     "        holds(&next->observed.order, a))",
-     "if (next && next->axis == finest->axis && (holds(a, &next->observed.order) ||\n"
-     "        holds(&next->observed.order, a)))"},
+     "small && holds(&a->order, &b->order) && holds(&b->order, &a->order)",
+     "small && (holds(&a->order, &b->order) || holds(&b->order, &a->order))"},
     {"steps_end_where_they_settle_nothing", "order", "study/fit/grid_differences.c", "golden study_mms",
      "while (!status && !settled && !why.status)",
      "while (!status && !settled && !why.status && !(a->end[axis] > 5))"},
@@ -835,7 +833,8 @@ static const struct planted_bug planted_bugs[] = {
      "br_case_take_order(c, of->answer[!axis].order,"},
     {"order_of_a_bent_line", "expected", "orders/orders.c",
      "tests/test_orders test_orders_that_a_grid_hides",
-     "next->axis == finest->axis && holds(a, &next->observed.order) &&", "next != finest ||"},
+     "next->axis == finest->axis && show_the_same(&finest",
+     "next != finest || show_the_same(&finest"},
     {"problem_without_expectations", "expected", "orders/request.c", "tests/test_study_file",
      "b->down_to);\n        add_text(&sum, text);",
      "b->down_to);\n        add_text(&sum, \"\");"},
