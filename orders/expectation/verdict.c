@@ -463,21 +463,22 @@ static void conclude_either(struct br_case *c)
              100 * c->exponential);
 }
 
-/* Exponential convergence has no order, and an order is no such convergence. */
+/* Exponential convergence has no order, and an order is no such convergence: another factor fails,
+ * whichever of the two there is. */
 static void decide_factor(struct br_case *c)
 {
     const double low = br_expectation_low(&c->expected), high = br_expectation_high(&c->expected);
     const struct br_estimate *f = &c->factor;
+    const bool other = isfinite(f->value) && (exp(c->high99) < low || exp(c->low99) > high);
     char text[64], band[64];
     c->margin = fmin(f->low - low, high - f->high);
     if (f->low >= low && f->high <= high && c->exponential >= passes)
         conclude(c, BR_PASS, "%s", "");
-    else if (c->exponential > 1 - fails && c->exponential < passes)
+    else if (c->exponential > 1 - fails && c->exponential < passes && !other)
         conclude_either(c);
     else if (isfinite(f->value))
-        conclude(c, exp(c->high99) < low || exp(c->low99) > high ? BR_FAIL : BR_INCONCLUSIVE,
-                 "%s divides the errors by %s, expected %s", one_more(c),
-                 br_order_text(f, text, sizeof text), band_text(&c->expected, band));
+        conclude(c, other ? BR_FAIL : BR_INCONCLUSIVE, "%s divides the errors by %s, expected %s",
+                 one_more(c), br_order_text(f, text, sizeof text), band_text(&c->expected, band));
     else if (c->of_degree)
         conclude(c, br_order_determined(&c->order) ? BR_FAIL : BR_INCONCLUSIVE, "%s",
                  "the errors do not fall exponentially");
