@@ -6,6 +6,7 @@
 
 #include "base/clock.h"
 #include "base/load.h"
+#include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/verdicts.h"
 
@@ -54,8 +55,8 @@ static enum br_status find(const struct check_run *r, const char *name, struct i
     if (dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".tsv") == 0))
         return br_fail(err, BR_BAD_INPUT,
                        "found the table %s, expected a %sstudy file (.yaml) that names it; orders "
-                       "of a table: beamrate orders %s",
-                       name, r->other ? "scene or a " : "", name);
+                       "of a table: %s orders %s",
+                       name, r->other ? "scene or a " : "", br_program.name, name);
     if (r->other)
         return r->other->find(name, item->path, sizeof item->path, err);
     if (snprintf(item->path, sizeof item->path, "%s",

@@ -17,6 +17,7 @@ struct br_command {
     const char *title;     /* one line for a person */
     const char *about;     /* what it does: sentences for the help */
     const char *more;      /* further sentences for the manual; NULL: none */
+    /* without the name of the program */
     const char *example[BR_MOST_EXAMPLES];
     size_t least_words, most_words; /* number of arguments that are no options */
     const struct br_words *words;   /* the values that these may have; NULL: scenes */

@@ -68,7 +68,7 @@ void br_print_command_help(FILE *out, const struct br_command *c)
     }
     fprintf(out, "\nExamples:\n");
     for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++)
-        fprintf(out, "  %s\n", c->example[i]);
+        fprintf(out, "  %s %s\n", br_program.name, c->example[i]);
     fputc('\n', out);
     br_print_wrapped(out, br_program.hint, 0, 0);
 }
@@ -85,7 +85,7 @@ void br_print_help(FILE *out)
     }
     fprintf(out, "\nTo begin with:\n");
     for (size_t i = 0; i < BR_MOST_EXAMPLES && br_program.example[i]; i++)
-        fprintf(out, "  %s\n", br_program.example[i]);
+        fprintf(out, "  %s %s\n", br_program.name, br_program.example[i]);
     snprintf(line, sizeof line,
              "'%s COMMAND --help' lists a command's options, with examples. Their names may be cut "
              "short: --dim is --dimension.",
@@ -135,11 +135,11 @@ const struct br_command br_command_help = {
     .name = "help",
     .arguments = "[TOPIC]",
     .title = "lists the commands, the options of one command, or the methods",
-    .about =
-        "Without a TOPIC: lists the commands. With a command: lists its options. 'methods' lists "
-        "all names that can be chosen, 'man' prints the manual page, 'markdown' prints "
-        "docs/options.md.",
-    .example = {"beamrate help", "beamrate help run", "beamrate help methods"},
+    .about = "Without a TOPIC: lists the commands. With a command: lists its options.",
+    .more =
+        "'methods' lists all names that can be chosen, 'man' prints the manual page, 'markdown' "
+        "prints docs/options.md.",
+    .example = {"help", "help orders"},
     .most_words = 1,
     .words = &topics,
     .run = run,

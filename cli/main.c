@@ -19,11 +19,10 @@ const struct br_program br_program = {
         "beam that is pressed against an obstacle",
     .hint = "'beamrate help methods' lists schemes, solvers, rules, references, norms and formats.",
     .commands = commands,
-    .example = {"beamrate orders errors.csv",
-                "beamrate orders errors.csv --expect 'l2: h 2 +- 0.1'", "beamrate run example3",
-                "beamrate study example2 --norm l2,energy,tip",
-                "beamrate tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3",
-                "beamrate scenes --new my_scene.yaml"},
+    .example = {"orders errors.csv", "orders errors.csv --expect 'l2: h 2 +- 0.1'", "run example3",
+                "study example2 --norm l2,energy,tip",
+                "tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3",
+                "scenes --new my_scene.yaml"},
     .beam = &br_beam,
 };
 

@@ -22,7 +22,7 @@ static const struct br_command br_command_check = {
         "has the verdict PASS if its 95 % interval lies within the band, FAIL if its 99 % interval "
         "lies outside, and else INCONCLUSIVE. Exit code 0: all orders pass; 1: some do not; 3: "
         "they pass, but a run of a program has failed.",
-    .example = {"beamrate-orders check study.yaml --junit orders.xml --markdown summary.md"},
+    .example = {"check study.yaml --junit orders.xml --markdown summary.md"},
     .most_words = BR_MOST_WORDS,
     .run = check,
 };
@@ -41,8 +41,7 @@ static const struct br_command br_command_trade = {
     .arguments = "PROGRAM...",
     .title = "what a digit costs: errors against costs of several programs",
     .about = BR_TRADE_ABOUT,
-    .example = {"beamrate-orders trade fd.csv sparse4.csv",
-                "beamrate-orders trade fd.yaml p1.yaml p2.yaml --trust --out trade"},
+    .example = {"trade fd.csv sparse4.csv", "trade fd.yaml p1.yaml p2.yaml --trust --out trade"},
     .most_words = BR_MOST_WORDS,
     .run = trade,
 };
@@ -61,9 +60,8 @@ const struct br_program br_program = {
     .about = "observed orders of convergence, with their intervals and verdicts",
     .hint = "The program beamrate has these commands, too, and marches a beam.",
     .commands = commands,
-    .example = {"beamrate-orders orders errors.csv",
-                "beamrate-orders orders errors.csv --expect 'l2: h 2 +- 0.1'",
-                "beamrate-orders check study.yaml"},
+    .example = {"orders errors.csv", "orders errors.csv --expect 'l2: h 2 +- 0.1'",
+                "check study.yaml"},
     .of_beamrate = of_beamrate,
 };
 

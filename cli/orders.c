@@ -251,9 +251,9 @@ const struct br_command br_command_orders = {
         "with 95 % intervals, along lines and jointly in h and k; values get the limit, and the "
         "grid convergence index. Rows at a floor are left out by name. With --expect or 'verify:' "
         "there are verdicts, as 'check' has them.",
-    .example = {"beamrate orders errors.csv --error l2,h1 --expect 'l2: h 2 +- 0.1'",
-                "beamrate orders drag.csv --value drag",
-                "beamrate orders --run './poisson {n}' -n 10,20,40,80 --read 'l2=error ([^ ]+)'"},
+    .example = {"orders errors.csv --error l2,h1 --expect 'l2: h 2 +- 0.1'",
+                "orders drag.csv --value drag",
+                "orders --run './poisson {n}' -n 10,20,40,80 --read 'l2=error ([^ ]+)'"},
     .most_words = 1,
     .run = run,
 };

@@ -83,8 +83,16 @@ for command in $([ -z "${BEAMRATE-}" ] || "$BEAMRATE" help | sed -n 's/^  \([a-z
 done
 BEAMRATE='' ends 2 errors.csv
 says 'did you mean: beamrate-orders orders errors.csv'
+BEAMRATE='' ends 2 check errors.csv
+says 'orders of a table: beamrate-orders orders errors.csv'
 BEAMRATE='' ends 0 help
 says 'beamrate-orders orders errors.csv'
+for command in orders check trade help; do # an example can be pasted
+    "$BEAMRATE_ORDERS" "$command" --help | sed -n '/^Examples:/,/^$/p' >examples
+    grep -q '^  ' examples || fails "$command: no example"
+    grep -v -e '^Examples:$' -e '^$' -e "^  beamrate-orders $command" examples && fails "$command: that example"
+done
+"$BEAMRATE_ORDERS" help --help | grep -q methods && fails "help: topics that only beamrate has"
 
 # Files: the same but for what says which program wrote them.
 for program in "$BEAMRATE_ORDERS" "${BEAMRATE-}"; do

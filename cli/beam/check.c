@@ -147,8 +147,8 @@ const struct br_command br_command_check = {
         "INCONCLUSIVE. Exit code 0: all orders pass; 1: some do not; 3: they pass, but a run of a "
         "program has failed.",
     .more = "The options of the method replace what the scenes say.",
-    .example = {"beamrate check --all --junit orders.xml --markdown summary.md",
-                "beamrate check my_scene.yaml --json new.json --compare old.json"},
+    .example = {"check --all --junit orders.xml --markdown summary.md",
+                "check my_scene.yaml --json new.json --compare old.json"},
     .most_words = BR_MOST_WORDS,
     .run = run,
 };

@@ -148,7 +148,7 @@ const struct br_command br_command_completions = {
              "scenes. zsh reads it after 'autoload -U bashcompinit && bashcompinit'.",
     .more = "It is installed where bash looks for it. fish makes completions of its own from the "
             "manual page, by fish_update_completions.",
-    .example = {"beamrate completions bash > beamrate.bash"},
+    .example = {"completions bash > beamrate.bash"},
     .least_words = 1,
     .most_words = 1,
     .words = &shell_words,

@@ -257,9 +257,9 @@ const struct br_command br_command_extremes = {
         "compares the round-off that many steps accumulate. Part stability marches the scene over "
         "n and k, and over c_H and k, and finds the marches that break: they are not finite, or "
         "the scheme itself adds energy. An option that no chosen part uses is refused.",
-    .example = {"beamrate extremes stability impact --out stability",
-                "beamrate extremes stability my_scene.yaml --methods euler+lagged,bdf2",
-                "beamrate extremes floors -n 100,1000 -k 0.01"},
+    .example = {"extremes stability impact --out stability",
+                "extremes stability my_scene.yaml --methods euler+lagged,bdf2",
+                "extremes floors -n 100,1000 -k 0.01"},
     .most_words = BR_MOST_WORDS,
     .words = &experiments,
     .or_scenes = true,

@@ -79,6 +79,6 @@ const struct br_command br_command_figures = {
         "script, data, SVG and PNG; and every statement of section 3.2 with our value, its error "
         "bar, and whether they agree (claims.txt, .csv, .md, .tex, .json). All formats but .csv "
         "and .json show the figures with their captions; report.html does, too.",
-    .example = {"beamrate figures --out figures"},
+    .example = {"figures --out figures"},
     .run = run,
 };

@@ -130,8 +130,10 @@ static void man_command(FILE *out, const struct br_command *c)
     if (c->words && c->words->title)
         man_words(out, c->words);
     fputs(".PP\n.nf\n", out);
-    for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++)
+    for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++) {
+        fputs("beamrate ", out);
         man_line(out, c->example[i]);
+    }
     fputs(".fi\n", out);
 }
 
@@ -141,7 +143,7 @@ void br_print_manual(FILE *out)
             ".\\\" SPDX-License-Identifier: GPL-3.0-or-later\n"
             ".\\\" Written by 'beamrate help man'.\n"
             ".TH BEAMRATE 1 2026 \"beamrate %s\" \"User Commands\"\n.SH NAME\n"
-            "beamrate \\- convergence studies of the dynamic frictional contact of a "
+            "beamrate \\- orders of convergence of any program's numbers, and a solver of a "
             "viscoelastic beam\n.SH SYNOPSIS\n"
             ".B beamrate\n.I command\n.RI [ option ...]\n.SH COMMANDS\n",
             br_version());
@@ -210,7 +212,7 @@ static void page_command(FILE *out, const struct br_command *c)
     br_quote(out, &for_page, c->more ? c->more : "");
     fputs("\n\n```sh\n", out);
     for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++)
-        fprintf(out, "%s\n", c->example[i]);
+        fprintf(out, "beamrate %s\n", c->example[i]);
     fputs("```\n\n", out);
     page_options(out, row, own);
     if (own < count)

@@ -421,9 +421,9 @@ const struct br_command br_command_run = {
         "Marches one scene and says what happened at its tip: displacements, forces, when it "
         "stuck, slipped, reversed, closed and opened, energies, and what was modelled and what "
         "not.",
-    .example = {"beamrate run example3", "beamrate run example2 -n 400 -k 1e-4 --check",
-                "beamrate run example2 --set 'contact.stiffness=2e3 N/m' --set 'length=500 mm'",
-                "beamrate run example1 --at 0.5,T --out results --json -"},
+    .example = {"run example3", "run example2 -n 400 -k 1e-4 --check",
+                "run example2 --set 'contact.stiffness=2e3 N/m' --set 'length=500 mm'",
+                "run example1 --at 0.5,T --out results --json -"},
     .least_words = 1,
     .most_words = 1,
     .run = run,

@@ -101,8 +101,7 @@ const struct br_command br_command_scenes = {
     .arguments = "[SCENE]",
     .title = "lists the bundled scenes, shows one, begins a new one",
     .about = "Lists the bundled scenes, a line each; shows one; or begins a new one.",
-    .example = {"beamrate scenes", "beamrate scenes example2",
-                "beamrate scenes --new my_scene.yaml"},
+    .example = {"scenes", "scenes example2", "scenes --new my_scene.yaml"},
     .most_words = 1,
     .run = run,
 };

@@ -89,9 +89,9 @@ const struct br_command br_command_study = {
         "A scene is a file, or one of the bundled scenes that 'beamrate scenes' lists. The errors "
         "are measured in exact norms over all time levels, and the orders of convergence are "
         "fitted with 95 % intervals.",
-    .example = {"beamrate study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
-                "beamrate study example2 --norm l2,energy,tip",
-                "beamrate study example2 --set 'contact.stiffness=2e3 N/m'"},
+    .example = {"study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
+                "study example2 --norm l2,energy,tip",
+                "study example2 --set 'contact.stiffness=2e3 N/m'"},
     .least_words = 1,
     .most_words = 1,
     .run = run_study,
@@ -106,6 +106,7 @@ const struct br_command br_command_tables = {
         "Computes the paper's Tables 1 and 2 on the printed grids with the printed reference, "
         "beside the printed values. The errors against the exact solution are measured, too; the "
         "orders are fitted to these.",
-    .example = {"beamrate tables --out results", "mpirun -n 4 beamrate tables"},
+    .example = {"tables --out results",
+                "tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3"},
     .run = run_tables,
 };

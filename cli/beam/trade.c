@@ -551,11 +551,10 @@ const struct br_command br_command_trade = {
     "trials on, until nothing cheaper is left, then on a finer grid around the best two "
     "methods; meshes and steps that are given are tried as they are. If no trial reaches "
     "it, the exit code is 3.",
-    .example =
-        {"beamrate trade example2 --methods euler+lagged,euler+implicit -n 25,100 -k 0.1,0.01",
-         "beamrate trade example1 example3 --methods bdf2,adaptive -n 50 -k 0.05,0.01 --time-limit 2",
-         "beamrate trade example2 --error 1e-3", "beamrate trade fd.csv sparse4.csv",
-         "beamrate trade example2 --split --methods euler+lagged,euler+implicit -k 0.1,0.01"},
+    .example = {"trade example2 --methods euler+lagged,euler+implicit -n 25,100 -k 0.1,0.01",
+                "trade example1 example3 --methods bdf2,adaptive -n 50 -k 0.05,0.01 --time-limit 2",
+                "trade example2 --error 1e-3", "trade fd.csv sparse4.csv",
+                "trade example2 --split --methods euler+lagged,euler+implicit -k 0.1,0.01"},
     .least_words = 1,
     .most_words = BR_MOST_WORDS,
     .run = run,
