@@ -591,6 +591,7 @@ static void put_needed(struct br_document *d, const struct br_orders *o,
 {
     enum { DIGITS = 3 };
     const struct br_orders_forecast f = br_orders_forecast_of(o, of);
+    const bool value = br_quantity_of(o, of)->is_value;
     double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
     for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
         const struct br_resolution_column *column = o->numbers->column[f.line->axis];
@@ -599,9 +600,9 @@ static void put_needed(struct br_document *d, const struct br_orders *o,
             break;
         br_put_row(d);
         BR_PUT(d, br_text(br_quantity_of(o, of)->name), .key = "quantity", .flags = BR_VARIES);
-        BR_PUT(d, br_text(br_quantity_of(o, of)->is_value ? "GCI" : "error"), .key = "what",
-               .flags = BR_VARIES);
+        br_hide(d, "what", NULL, br_text(value ? "GCI" : "error"));
         BR_PUT(d, br_number(wanted), .key = "wanted", .heading = "at most", .format = "%.0e");
+        br_put_shown(d, value ? "GCI %.0e" : "%.0e", wanted);
         br_hide(d, "column", NULL, br_text(column->name));
         BR_PUT(d, br_number(size), .key = "size", .heading = "needs");
         if (column->is_size) /* foretold: no more digits are known */
