@@ -29,7 +29,7 @@ static const struct br_option rows[] = {
          "NAME h, n, dofs, cells, level, k, dt or steps is that of a resolution, which the run itself states.",
      .repeats = true},
     {BR_OPT_REPEAT, "repeat", 0, "COUNT", "number of runs of each resolution; their mean is used",
-     "1", BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,
+     "1", BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "For programs that draw random numbers: {repeat} in the command is 1, 2, ..., for "
              "example a seed. The standard deviations of the means give their weights."},
 
@@ -58,7 +58,7 @@ static const struct br_option rows[] = {
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "Without it, each study is answered, for each word or degree of a column."},
     {BR_OPT_FINEST, "finest", 0, "COUNT", "orders of so many of the finest sizes alone", NULL,
-     BR_TAKES_NUMBER, WHOLE(3, 1000), .commands = BR_FOR_ORDERS,
+     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "Along each axis. The answer, verdicts and pictures say so; the other rows are shown "
              "as left out by hand."},
     {BR_OPT_WITHOUT, "without", 0, "LIST", "sizes that are left out: 8, or 8,16, or n=8", NULL,
@@ -71,14 +71,14 @@ static const struct br_option rows[] = {
          "Of a run, cpu and wall are measured, and so is memory. Other names are those of columns, "
          "or of numbers that 'read:' of a study file names."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
-     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
+     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_ORDERS,
      .more =
          "If it is not given, the growth of the numbers and the rates of a table decide it, or 2 "
          "is assumed for unknowns. The answer states what is assumed; a verdict then needs this "
          "option."},
-    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
-     BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
+    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_ORDERS,
      .more = "For the uncertainty of limits, 1 to 10. If it is not given, 2 is assumed; the answer "
              "states this, and the result for 1."},
     {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1; h1 >= 0.9', or '2'", NULL,

@@ -23,18 +23,31 @@ struct orders_run {
 
 /* ---- the request ---- */
 
-static enum br_status copy_text(const char *text, char **to, struct br_error *err)
+/* What a study file says, too; the first SETTINGS in the words of its keys. */
+enum { SETTINGS = 10 };
+static const enum br_option_id of_request[] = {
+    BR_OPT_RUN,     BR_OPT_REPEAT, BR_OPT_COLUMN, BR_OPT_WHERE,      BR_OPT_FINEST,
+    BR_OPT_WITHOUT, BR_OPT_ERROR,  BR_OPT_VALUE,  BR_OPT_DIMENSION,  BR_OPT_FORMAL,
+    BR_OPT_N,       BR_OPT_K,      BR_OPT_READ,   BR_OPT_TIME_LIMIT, BR_OPTIONS};
+
+static enum br_status read_settings(const struct br_options *o, struct br_orders_request *q,
+                                    struct br_error *err)
 {
-    *to = text ? strdup(text) : NULL;
-    return text && !*to ? br_no_memory(err, "the options") : BR_OK;
+    struct br_error inner = {0};
+    for (size_t i = 0; i < SETTINGS; i++) {
+        const char *name = br_first_given(o, (enum br_option_id[]){of_request[i], BR_OPTIONS});
+        if (name && br_orders_request_set(q, name, br_option_text(o, of_request[i]), &inner))
+            return br_fail(err, inner.status, "--%s: %s", name, inner.message);
+    }
+    return BR_OK;
 }
 
 /* Reads "NAME=WHAT", one on each line. */
 static enum br_status read_readings(const char *text, struct br_orders_request *q,
                                     struct br_error *err)
 {
-    char *copy, *rest;
-    bool failed = copy_text(text, &copy, err);
+    char *copy = text ? strdup(text) : NULL, *rest;
+    bool failed = text && !copy && br_no_memory(err, "the options");
     for (char *line = copy ? strtok_r(copy, "\n", &rest) : NULL; line && !failed;
          line = strtok_r(NULL, "\n", &rest)) {
         char *equals = strchr(line, '=');
@@ -82,12 +95,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     static const enum br_option_id of_tables[] = {BR_OPT_COLUMN, BR_OPT_WHERE, BR_OPTIONS};
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     const char *of_table = q->command ? br_first_given(o, of_tables) : NULL;
-    q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
-    q->assumed_dimension = !br_option_given(o, BR_OPT_DIMENSION);
-    q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
-    q->repeat = br_option_number(o, BR_OPT_REPEAT, q->repeat);
-    q->finest = br_option_number(o, BR_OPT_FINEST, 0);
     if (unused)
         return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
     if (of_table)
@@ -100,37 +108,25 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     if (read_list(br_option_text(o, BR_OPT_N), "n", q, err) ||
         read_list(br_option_text(o, BR_OPT_K), "k", q, err))
         return err->status;
-    const bool failed = read_readings(br_option_text(o, BR_OPT_READ), q, err) ||
-                        copy_text(br_option_text(o, BR_OPT_COLUMN), &q->columns, err) ||
-                        copy_text(br_option_text(o, BR_OPT_WHERE), &q->where, err) ||
-                        copy_text(br_option_text(o, BR_OPT_WITHOUT), &q->without, err) ||
-                        copy_text(br_option_text(o, BR_OPT_ERROR), &q->errors, err) ||
-                        copy_text(br_option_text(o, BR_OPT_VALUE), &q->values, err);
-    return failed ? err->status : BR_OK;
+    return read_readings(br_option_text(o, BR_OPT_READ), q, err);
 }
 
 /* A study file refuses options for what it has. */
 static enum br_status read_file(const char *path, const struct br_options *o,
                                 struct br_study_file *study, struct br_error *err)
 {
-    static const enum br_option_id refused[] = {
-        BR_OPT_N,         BR_OPT_K,      BR_OPT_COLUMN,  BR_OPT_ERROR,      BR_OPT_VALUE,
-        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ,    BR_OPT_TIME_LIMIT, BR_OPT_REPEAT,
-        BR_OPT_WHERE,     BR_OPT_FINEST, BR_OPT_WITHOUT, BR_OPTIONS};
-    if (br_is_yaml(path) && br_first_given(o, refused))
+    if (br_is_yaml(path) && br_first_given(o, of_request))
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an option repeats what the study file says: give it in one place",
                        path);
     return br_study_file_open(path, o, study, err);
 }
 
-static enum br_status read_run(const struct br_options *o, struct br_orders_request *q,
-                               struct br_error *err)
+static enum br_status begin_run(struct br_orders_request *q, struct br_error *err)
 {
     *q = br_orders_request_default();
-    const bool failed = copy_text("--run", &q->path, err) ||
-                        copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err);
-    return failed ? err->status : BR_OK;
+    q->path = strdup("--run");
+    return q->path ? BR_OK : br_no_memory(err, "the options");
 }
 
 static enum br_status read_request(struct orders_run *r, struct br_error *err)
@@ -142,8 +138,8 @@ static enum br_status read_request(struct orders_run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT,
                        word ? "--run and a file are given, expected one of the two"
                             : "no file is given, expected a table, a study file, or --run");
-    if ((word ? read_file(word, o, &r->study, err) : read_run(o, q, err)) ||
-        (!(word && br_is_yaml(word)) && read_options(o, q, err)))
+    if ((word ? read_file(word, o, &r->study, err) : begin_run(q, err)) ||
+        (!(word && br_is_yaml(word)) && (read_settings(o, q, err) || read_options(o, q, err))))
         return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
     struct br_error inner = {0};

@@ -180,6 +180,12 @@ enum br_status br_orders_request_axis(struct br_orders_request *request, const c
 enum br_status br_orders_request_reading(struct br_orders_request *request, const char *name,
                                          const char *what, struct br_error *err);
 
+/* Sets what a key of study files says: "title", "run", "column", "where", "finest", "without",
+ * "error", "value", "dimension", "formal_order" or "repeat", once. Fails with BR_BAD_INPUT, "found
+ * '0', expected a whole number from 1 to 16", or BR_NO_MEMORY. */
+enum br_status br_orders_request_set(struct br_orders_request *request, const char *key,
+                                     const char *text, struct br_error *err);
+
 /* ---- study files ---- */
 
 enum { BR_LONGEST_STUDY = 1 << 20 }; /* bytes */

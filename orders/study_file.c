@@ -86,23 +86,22 @@ static enum br_status take_number(const struct entry *e)
 
 static enum br_status take_formal(const struct entry *e)
 {
-    const enum br_status status = take_number(e);
-    return status || (e->request->formal >= 1 && e->request->formal <= 10)
-               ? status
-               : br_fail(e->err, BR_BAD_INPUT, "found '%s', expected an order from 1 to 10",
-                         e->text);
-}
-
-static enum br_status take_dimension(const struct entry *e)
-{
-    e->request->assumed_dimension = false;
-    return take_number(e);
+    const char *end = br_read_number(e->text, &e->request->formal);
+    if (end && !*end && e->request->formal >= 1 && e->request->formal <= 10)
+        return BR_OK;
+    return br_fail(e->err, BR_BAD_INPUT, "found '%s', expected an order from 1 to 10", e->text);
 }
 
 static enum br_status take_in_range(const struct entry *e)
 {
     double *value = (double *)((char *)e->request + e->of->at);
     return br_read_in_range(e->text, &e->of->range, value, e->err);
+}
+
+static enum br_status take_dimension(const struct entry *e)
+{
+    e->request->assumed_dimension = false;
+    return take_in_range(e);
 }
 
 static enum br_status take_reading(const struct entry *e)
@@ -143,8 +142,9 @@ static const struct key keys[] = {
     {"without", take_text, .at = offsetof(struct br_orders_request, without)},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
-    {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},
-    {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
+    {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension),
+     .range = {1, 16, true}},
+    {"formal_order", .take = take_formal},
     {"repeat", take_in_range, .at = offsetof(struct br_orders_request, repeat), .of_runs = true,
      .range = {1, BR_MOST_SIZES, true}},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
@@ -152,6 +152,25 @@ static const struct key keys[] = {
     {"verify", take_expectation, .pairs = true},
 };
 enum { KEYS = sizeof keys / sizeof *keys };
+
+/* An option's name has - for _; so may a key. */
+static bool is_named(const struct key *key, const char *name)
+{
+    size_t i = 0;
+    while (key->name[i] == name[i] || (key->name[i] == '_' && name[i] == '-'))
+        if (!name[i++])
+            return true;
+    return false;
+}
+
+enum br_status br_orders_request_set(struct br_orders_request *request, const char *name,
+                                     const char *text, struct br_error *err)
+{
+    const struct key *key = keys;
+    while (!is_named(key, name))
+        key++;
+    return key->take(&(struct entry){request, key, NULL, name, text, 0, err});
+}
 
 /* name: of the key, or of a pair. */
 static enum br_status take_scalar(const struct br_yaml *r, const struct key *key,
@@ -192,7 +211,7 @@ static enum br_status take_entry(const struct br_yaml *r, const yaml_node_pair_t
     char expected[BR_EXPECTED];
     for (size_t i = 0; i < KEYS; i++) {
         names[i] = keys[i].name;
-        if (strcmp(keys[i].name, text) != 0)
+        if (!is_named(&keys[i], text))
             continue;
         if (given[i])
             return br_yaml_refuse(r, br_yaml_line(name), text, "is given twice");
