@@ -143,7 +143,7 @@ static const struct key keys[] = {
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension),
-     .range = {1, 16, true}},
+     .range = {1, BR_MOST_DIMENSIONS, true}},
     {"formal_order", .take = take_formal},
     {"repeat", take_in_range, .at = offsetof(struct br_orders_request, repeat), .of_runs = true,
      .range = {1, BR_MOST_SIZES, true}},

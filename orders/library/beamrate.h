@@ -114,8 +114,9 @@ struct beamrate_table {
     const char *text;    /* UTF-8 */
     const char *errors;  /* columns of errors, "l2,h1"; NULL: all where values is NULL, too */
     const char *values;  /* columns of values whose limit is not known; NULL: none */
-    double dimension;    /* of the mesh whose unknowns or cells a column counts; 0: not stated */
-    double formal;       /* theoretical order of values; 0: 2 */
+    double dimension;    /* of the mesh whose unknowns or cells a column counts; whole,
+                            from 1 to 16; 0: not stated */
+    double formal;       /* theoretical order of values, from 1 to 10; 0: 2 */
     const char *columns; /* what columns are, as of --column: "dx=h, 3=l2"; NULL: not stated */
     const char *where;   /* the rows of one case, as of --where: "method=P1"; NULL: each case */
     size_t finest;       /* so many of the finest sizes have a part, as of --finest; 0: all */

@@ -92,13 +92,16 @@ enum br_status br_request_of(const struct beamrate_table *table, struct br_order
     *q = br_orders_request_default();
     if (!table || !table->text)
         return br_fail(err, BR_BAD_INPUT, "table: found NULL, expected a table");
-    if (!(table->dimension >= 0 && isfinite(table->dimension) && table->formal >= 0 &&
-          isfinite(table->formal)))
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "table: found dimension %g and formal order %g, expected numbers above 0, or "
-            "0: not stated",
-            table->dimension, table->formal);
+    const double d = table->dimension;
+    if (!(d >= 0 && d <= BR_MOST_DIMENSIONS && d == floor(d)))
+        return br_fail(err, BR_BAD_INPUT,
+                       "table: found dimension %g, expected a whole number from 1 to %d, or 0: not "
+                       "stated",
+                       d, BR_MOST_DIMENSIONS);
+    if (!(table->formal >= 0 && isfinite(table->formal)))
+        return br_fail(err, BR_BAD_INPUT,
+                       "table: found formal order %g, expected a number above 0, or 0: not stated",
+                       table->formal);
     q->path = (char *)(table->name ? table->name : "table");
     q->table = (char *)table->text;
     q->errors = (char *)table->errors;
@@ -110,8 +113,8 @@ enum br_status br_request_of(const struct beamrate_table *table, struct br_order
     if (table->finest > 0 && table->finest < BR_ORDERS_LEAST)
         return br_fail(err, BR_BAD_INPUT, "table: finest: found %zu, expected at least %d, or 0",
                        table->finest, BR_ORDERS_LEAST);
-    q->dimension = table->dimension > 0 ? table->dimension : q->dimension;
-    q->assumed_dimension = !(table->dimension > 0);
+    q->dimension = d > 0 ? d : q->dimension;
+    q->assumed_dimension = !(d > 0);
     q->formal = table->formal > 0 ? table->formal : q->formal;
     return BR_OK;
 }
