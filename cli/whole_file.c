@@ -57,11 +57,13 @@ static FILE *open_special(const char *path)
 
 /* The program's own stream, or one of a descriptor that it was given, if that is the file at the
  * path: others write there, too, so the file is written to, not replaced. NULL: none is. */
-static FILE *open_already(const struct stat *old)
+static FILE *open_already(const char *path, const struct stat *old)
 {
     enum { MOST = 9 }; /* a shell gives these numbers */
     struct stat open;
-    for (int i = STDOUT_FILENO; i <= MOST; i++) {
+    /* 2>&1: both are one file, and the report keeps standard output */
+    const bool complaints = strcmp(path, "/dev/stderr") == 0;
+    for (int i = complaints ? STDERR_FILENO : STDOUT_FILENO; i <= MOST; i++) {
         const int mode = fcntl(i, F_GETFL);
         if (mode < 0 || (mode & O_ACCMODE) == O_RDONLY || fstat(i, &open) != 0 ||
             S_ISCHR(open.st_mode) || old->st_dev != open.st_dev || old->st_ino != open.st_ino)
@@ -88,7 +90,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
         return BR_OK;
     struct stat old;
     const bool there = stat(path, &old) == 0;
-    w->file = strcmp(path, "-") == 0 ? stdout : there ? open_already(&old) : NULL;
+    w->file = strcmp(path, "-") == 0 ? stdout : there ? open_already(path, &old) : NULL;
     if (is_standard(w->file))
         return BR_OK;
     w->place = there && S_ISCHR(old.st_mode) ? NULL : place_of(path);

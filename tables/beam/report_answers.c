@@ -2,6 +2,7 @@
 /* What was found in a study: the sentences; the joint fits, and contradictions in the printed
  * table; what was measured; and all its facts, for programs. */
 #include <math.h>
+#include <string.h>
 
 #include "reference/exact/exact.h"
 #include "solver/scene.h"
@@ -105,6 +106,12 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }
 
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), size = strlen(end);
+    return length >= size && strcmp(text + length - size, end) == 0;
+}
+
 void br_put_study_answers(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->fitted;
@@ -118,14 +125,17 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
         if (isfinite(observed->order.value))
             br_put_more(d, "%s, ", br_order_text(&observed->order, text, sizeof text));
         br_put_more(d, "%s", observed->remark);
-        if (!isnan(t->order))
-            br_put_more(d, "; theory %s", br_range_text(t->order, t->highest, text, sizeof text));
+        const bool named = !isnan(t->order) && ends_with(observed->remark, "theory");
+        if (!isnan(t->order)) /* "agrees with theory (2)" */
+            br_put_more(d, named ? " (%s" : "; theory %s",
+                        br_range_text(t->order, t->highest, text, sizeof text));
         if (isnan(t->order) && isnan(observed->order.value))
             br_put_more(d, "; theory: none");
         if (*t->reason && !(isnan(t->order) && isfinite(observed->order.value)))
-            br_put_more(d, " (%s)", t->reason);
+            br_put_more(d, named ? "; %s" : " (%s)", t->reason);
+        br_put_more(d, "%s", named ? ")" : "");
         if (isfinite(observed->order.value) && *observed->by)
-            br_put_more(d, "; measured from %s", observed->by);
+            br_put_more(d, "; from %s", observed->by);
         br_put_more(d, ".");
     }
 
