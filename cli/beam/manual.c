@@ -24,22 +24,10 @@ static size_t own_options(const struct br_option *row, size_t count)
 static const struct {
     const char *title, *text[8];
 } sections[] = {
-    {"WHAT IS SAID BEFORE A MARCH",
-     {"run predicts two errors, both relative to the solution: the discretisation error, with "
-      "bounds, from coarse marches, and the round-off of the linear solver. If it cannot predict "
-      "an error, it says so. It warns on standard error, with a remedy, in these cases: round-off "
-      "is larger than the discretisation error; the discretisation error is above 5 %; a load "
-      "changes faster than the time steps or the quadrature of the elements resolve; a lagged "
-      "contact will be unstable, or may gain energy. A march that needs more memory than there is, "
-      "or more than a century, is refused before a folder is made. A march of more than a day "
-      "gives a warning. The other commands give the warnings that are cheap to compute; study and "
-      "tables add up the memory of marches that run at once."}},
     {"MORE MACHINES",
      {"If mpirun or srun starts the program (with MPI built in), the ranks share the work, and "
       "only rank 0 prints and writes. The results are those of one process, to the bit. --threads "
-      "is the number for each rank; by default a rank uses the cores that it is bound to, shared "
-      "with the ranks that are bound to the same ones. All ranks must see the same scenes. A build "
-      "without MPI refuses to be started several times."}},
+      "is the number for each rank."}},
     {"SCENES",
      {"A scene is a YAML file; every number carries its unit, loads and initial data are "
       "expressions in x and t. What it leaves out is not modelled. 'beamrate scenes "
@@ -51,15 +39,10 @@ static const struct {
       ".svg and .png. If gnuplot fails on a picture, a warning names it and only that picture is "
       "missing; the exit code is that of the results. The NAME of a scene is that of its file, at "
       "most 100 bytes, where _ replaces all but letters, digits, blanks and _ . - +.",
-      "A folder holds the files of one run, a set. The list .beamrate-set names them, a line each. "
-      "New files are written in the hidden folder .beamrate-new, under the lock of .beamrate-lock: "
-      "a second program that would write there is refused. Then the new list is put into the "
-      "hidden folder: from now on the new set counts. The files are renamed into place, the other "
-      "files of the old set are removed, and the new list replaces the old one last. A program "
-      "that is killed before the new set counts leaves the old set; if it is killed later, the "
-      "next command with the same folder completes the new set first. A file that the list does "
-      "not name is never replaced or removed: if it is in the way, the results go into the folder "
-      "set-1 beside it (or the next free number), and the exit code is 3.",
+      "A folder holds one set of results, whose files the hidden list .beamrate-set names. A new set "
+      "replaces the one before it, completely or not at all. A file that the list does not name is "
+      "never replaced or removed: if it is in the way, the results go into the folder set-1 beside "
+      "it (or the next free number), and the exit code is 3.",
       "Installed: share/beamrate/study/scenes (the bundled scenes), and the completion of bash."}},
     {"ENVIRONMENT",
      {"BEAMRATE_DATA: the folder that holds study/scenes, instead "

@@ -505,11 +505,8 @@ static void note_two(struct br_case *c)
 /* Whether the two finest errors that are used show at least the least order that is expected. */
 static bool is_fast(const struct br_case *c)
 {
-    size_t last = c->points - 1;
-    while (last > 0 && c->point[last].flag)
-        last--;
     return isinf(br_expectation_high(&c->expected)) &&
-           rate_to(c, last) >= br_expectation_low(&c->expected);
+           rate_to(c, (size_t)(finest_used(c) - c->point)) >= br_expectation_low(&c->expected);
 }
 
 static void decide_order(struct br_case *c)
