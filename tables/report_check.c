@@ -51,12 +51,14 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
             br_put_verdict_detail(d, "%s: %s", p->label, *p->failure ? p->failure : "no number");
             continue;
         }
+        const char *against = p->against.n        ? at_text(d, &p->against)
+                              : p->z_against > 0  ? "the next finer one"
+                              : check->of_program ? NULL
+                                                  : "the solution";
         br_put_verdict_detail(
-            d, "%s against %s: error %.4e%s%s%s", p->at.n ? at_text(d, &p->at) : p->label,
-            p->against.n       ? at_text(d, &p->against)
-            : p->z_against > 0 ? "the next finer one"
-                               : "the solution",
-            p->error, isnan(p->constant) ? "" : br_format(d, ", constant %.4e", p->constant),
+            d, "%s%s%s: error %.4e%s%s%s", p->at.n ? at_text(d, &p->at) : p->label,
+            against ? " against " : "", against ? against : "", p->error,
+            isnan(p->constant) ? "" : br_format(d, ", constant %.4e", p->constant),
             p->flag ? ", left out: " : "", br_flag_name(p->flag));
     }
 }
