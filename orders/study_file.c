@@ -24,8 +24,7 @@ struct key {
     const char *name;
     enum br_status (*take)(const struct entry *e); /* its error gets the file and the key */
     size_t at;                                     /* offset of a text or a number in the request */
-    const char *unit;                              /* of a number; NULL: none */
-    struct br_number_range range;                  /* of a number; zeros: above 0 */
+    struct br_number_range range;                  /* of a number */
     bool of_runs;                                  /* only for a command */
     bool pairs; /* a mapping of names to texts; each pair is taken */
 };
@@ -72,16 +71,13 @@ static enum br_status take_list(const struct entry *e)
     return br_orders_request_axis(e->request, e->name, e->text, e->err);
 }
 
-/* A number above 0, with the unit that is expected behind it. */
-static enum br_status take_number(const struct entry *e)
+static enum br_status take_seconds(const struct entry *e)
 {
-    double *value = (double *)((char *)e->request + e->of->at);
-    const char *unit = e->of->unit ? e->of->unit : "", *end = br_read_number(e->text, value);
-    end = end ? end + strspn(end, " ") : NULL;
-    if (end && strcmp(end, unit) == 0 && *value > 0)
+    const char *end = br_read_number(e->text, &e->request->seconds);
+    if (end && strcmp(end + strspn(end, " "), "s") == 0 && e->request->seconds > 0)
         return BR_OK;
-    return br_fail(e->err, BR_BAD_INPUT, "found '%s', expected a number above 0%s%s", e->text,
-                   *unit ? " and its unit, " : "", unit);
+    return br_fail(e->err, BR_BAD_INPUT, "found '%s', expected a number above 0 and its unit, s",
+                   e->text);
 }
 
 static enum br_status take_formal(const struct entry *e)
@@ -147,8 +143,7 @@ static const struct key keys[] = {
     {"formal_order", .take = take_formal},
     {"repeat", take_in_range, .at = offsetof(struct br_orders_request, repeat), .of_runs = true,
      .range = {1, BR_MOST_SIZES, true}},
-    {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
-     .of_runs = true},
+    {"time_limit", take_seconds, .of_runs = true},
     {"verify", take_expectation, .pairs = true},
 };
 enum { KEYS = sizeof keys / sizeof *keys };

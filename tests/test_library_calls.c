@@ -191,7 +191,7 @@ TEST(orders_of_a_table)
         {{.text = two_columns, .dimension = INFINITY}, "table: found dimension inf"},
         {{.text = two_columns, .dimension = 2.5}, "table: found dimension 2.5, expected a whole"},
         {{.text = two_columns, .dimension = 17}, "table: found dimension 17"},
-        {{.text = two_columns, .formal = -1}, "formal order -1"},
+        {{.text = two_columns, .formal = -1}, "formal order is -1"},
     };
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
         ENDS(beamrate_orders_read(&orders, &refused[i].table, &failure), BEAMRATE_BAD_INPUT,
@@ -386,9 +386,10 @@ TEST(wrong_indices_are_refused)
     beamrate_orders_free(orders);
     numbers.formal = NAN;
     ENDS(beamrate_orders_find(&orders, &numbers, &failure), BEAMRATE_BAD_INPUT,
-         "formal: found nan");
+         "formal order is nan");
     numbers.formal = -1;
-    ENDS(beamrate_orders_find(&orders, &numbers, &failure), BEAMRATE_BAD_INPUT, "formal: found -1");
+    ENDS(beamrate_orders_find(&orders, &numbers, &failure), BEAMRATE_BAD_INPUT,
+         "formal order is -1");
 }
 
 /* ---- threads and memory ---- */

@@ -28,11 +28,6 @@ static const struct {
      {"If mpirun or srun starts the program (with MPI built in), the ranks share the work, and "
       "only rank 0 prints and writes. The results are those of one process, to the bit. --threads "
       "is the number for each rank."}},
-    {"SCENES",
-     {"A scene is a YAML file; every number carries its unit, loads and initial data are "
-      "expressions in x and t. What it leaves out is not modelled. 'beamrate scenes "
-      "--new' explains every key. It is read once, from a file, a pipe, or standard input "
-      "(-), and is refused beyond 1 MiB."}},
     {"FILES",
      {"Every table NAME is written as NAME.txt, .csv, .md, .tex and .json. Every plot is written "
       "as a gnuplot script NAME-*.gp with its data NAME-*.dat and, where gnuplot is installed, as "

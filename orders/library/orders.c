@@ -49,9 +49,6 @@ static enum br_status copy_numbers(const struct beamrate_numbers *from, struct b
 {
     if (!from || !from->number)
         return br_fail(err, BR_BAD_INPUT, "%s: found NULL, expected numbers", name_of_numbers);
-    if (!(from->formal >= 0 && isfinite(from->formal)))
-        return br_fail(err, BR_BAD_INPUT, "formal: found %g, expected an order above 0, or 0: 2",
-                       from->formal);
     if (!from->h && !from->k)
         return br_fail(err, BR_BAD_INPUT, "%s: found neither h nor k, expected at least one",
                        name_of_numbers);
@@ -98,10 +95,6 @@ enum br_status br_request_of(const struct beamrate_table *table, struct br_order
                        "table: found dimension %g, expected a whole number from 1 to %d, or 0: not "
                        "stated",
                        d, BR_MOST_DIMENSIONS);
-    if (!(table->formal >= 0 && isfinite(table->formal)))
-        return br_fail(err, BR_BAD_INPUT,
-                       "table: found formal order %g, expected a number above 0, or 0: not stated",
-                       table->formal);
     q->path = (char *)(table->name ? table->name : "table");
     q->table = (char *)table->text;
     q->errors = (char *)table->errors;
@@ -115,7 +108,7 @@ enum br_status br_request_of(const struct beamrate_table *table, struct br_order
                        table->finest, BR_ORDERS_LEAST);
     q->dimension = d > 0 ? d : q->dimension;
     q->assumed_dimension = !(d > 0);
-    q->formal = table->formal > 0 ? table->formal : q->formal;
+    q->formal = table->formal;
     return BR_OK;
 }
 

@@ -106,12 +106,6 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), size = strlen(end);
-    return length >= size && strcmp(text + length - size, end) == 0;
-}
-
 void br_put_study_answers(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->fitted;
@@ -125,8 +119,10 @@ void br_put_study_answers(struct br_document *d, const struct br_report *r)
         if (isfinite(observed->order.value))
             br_put_more(d, "%s, ", br_order_text(&observed->order, text, sizeof text));
         br_put_more(d, "%s", observed->remark);
-        const bool named = !isnan(t->order) && ends_with(observed->remark, "theory");
-        if (!isnan(t->order)) /* "agrees with theory (2)" */
+        /* "agrees with theory (2)"; behind a remark with rates, "; theory 2" */
+        const bool named = !isnan(t->order) && strstr(observed->remark, "theory") &&
+                           !strchr(observed->remark, ':');
+        if (!isnan(t->order))
             br_put_more(d, named ? " (%s" : "; theory %s",
                         br_range_text(t->order, t->highest, text, sizeof text));
         if (isnan(t->order) && isnan(observed->order.value))
