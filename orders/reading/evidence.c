@@ -261,6 +261,19 @@ static bool dips(const struct view *v, size_t column)
     return false;
 }
 
+bool br_evidence_falls(const struct br_roles *roles, const struct br_candidate *candidate,
+                       const size_t *sorted, size_t column)
+{
+    static const double least = 0.3; /* rate */
+    const struct view v = {roles, candidate, sorted, {0}};
+    const double *e = roles->column[column].number;
+    struct pair p;
+    for (size_t at = 0; next_pair(&v, &at, &p);)
+        if (!(log(fabs(e[p.coarse] / e[p.fine])) >= least * p.ratio))
+            return false;
+    return true;
+}
+
 /* Whether a column grows from each size to the next finer one, as far as it changes. */
 static bool climbs(const struct view *v, size_t column)
 {
@@ -440,6 +453,8 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
     const struct view v = {roles, candidate, sorted, {0}};
     const struct br_role_column *c = &roles->column[column];
     const bool named = c->kind == BR_KIND_ERROR,
+               norm_of_values = named && !br_says_error(c->name) && hardly_changes(c) &&
+                                !dips(&v, column),
                of_another_kind = !named && c->kind != BR_KIND_UNKNOWN &&
                                  !(c->kind == BR_KIND_DEGREE && !c->is_whole),
                has_a_limit =
@@ -449,6 +464,7 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
         double log_odds;
     } evidence[] = {
         {named, 3.5},          /* its heading */
+        {norm_of_values, -3},  /* "L2" of what comes to a limit */
         {of_another_kind, -5}, /* its heading is of a rate, a cost, a deviation or a degree */
         {dips(&v, column) && (named || !stays(&v, column)), 1.5}, /* it falls with the sizes */
         {climbs(&v, column) && c->is_whole && c->most > 1, -4},   /* it counts */

@@ -409,6 +409,29 @@ bool br_is_coefficient(const char *name)
            lists(" drag lift nusselt strouhal ", text);
 }
 
+/* Whether one of the words of a name is in a list. */
+static bool has_word(const char *name, const char *words)
+{
+    char word[LONGEST];
+    while (next_word(&name, word))
+        if (lists(words, word))
+            return true;
+    return false;
+}
+
+bool br_says_error(const char *name)
+{
+    return has_word(name, " error errors err e rmse mse mae rms difference diff fehler erreur errore "
+                          "erro defect semi ") ||
+           strchr(name, '-');
+}
+
+bool br_is_residual(const char *name)
+{
+    return has_word(name, " residual residuals res resid residuum ") &&
+           !has_word(name, " error errors err ");
+}
+
 static bool begins_as_error(const char *name)
 {
     char word[LONGEST];

@@ -224,6 +224,48 @@ static bool is_power_of_size(const struct br_roles *r, size_t i)
     return false;
 }
 
+/* Why a column of errors shows no order; NULL: it may. most: of the greatest error. */
+static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
+                            const size_t *sorted, size_t i, double most, bool errors)
+{
+    static const double small = 1e-6;
+    const struct br_role_column *c = &r->column[i];
+    return c->least == 0 && c->most == 0       ? "zeros"
+           : !(c->least < c->most)             ? "one number only"
+           : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"
+           : c->most <= small * most && !br_evidence_falls(r, over, sorted, i)
+               ? "round-off beside the errors"
+               : NULL;
+}
+
+static bool may_be_idle(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ERROR && !c->by_hand && c->name;
+}
+
+/* Leaves columns aside that show no order, beside one that may. */
+static void leave_idle(struct br_roles *r, const struct br_candidate *over, const size_t *sorted)
+{
+    double most = 0;
+    bool errors = false, others = false;
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        if (!br_role_is_studied(c))
+            continue;
+        most = fmax(most, c->most);
+        errors |= c->kind == BR_KIND_ERROR && !br_is_residual(c->name);
+    }
+    for (size_t i = 0; i < r->columns; i++)
+        others |= br_role_is_studied(&r->column[i]) &&
+                  !(may_be_idle(&r->column[i]) && why_idle(r, over, sorted, i, most, errors));
+    for (size_t i = 0; i < r->columns && others; i++) {
+        struct br_role_column *c = &r->column[i];
+        c->why = may_be_idle(c) ? why_idle(r, over, sorted, i, most, errors) : c->why;
+        if (may_be_idle(c) && c->why)
+            c->role = BR_ROLE_ASIDE;
+    }
+}
+
 static void take_errors(struct br_roles *r, const struct br_candidate *over, const size_t *sorted)
 {
     const bool asked = r->wishes->errors || r->wishes->values;
@@ -243,6 +285,8 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
                   : c->is_value ? BR_ROLE_VALUE
                                 : BR_ROLE_ERROR;
     }
+    if (!asked)
+        leave_idle(r, over, sorted);
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
         if (c->role == BR_ROLE_ASIDE && c->kind == BR_KIND_DEVIATION && c->numbers && !c->words &&

@@ -41,6 +41,11 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 /* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
 int br_power_in(const char *name, char base[20]);
 
+/* Whether a name says an error, not only a norm: "L2 error", "rmse", "u - u_h"; not "L2(u)". */
+bool br_says_error(const char *name);
+
+bool br_is_residual(const char *name); /* and not also an error's */
+
 /* Whether a name is that of a coefficient, which has a limit: "C_D", "cl", "drag". */
 bool br_is_coefficient(const char *name);
 
@@ -207,6 +212,10 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
 /* Log odds that a column has errors, over these sizes. */
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
                              const size_t *sorted, size_t column);
+
+/* Whether a column falls from each size to the next finer one. */
+bool br_evidence_falls(const struct br_roles *roles, const struct br_candidate *candidate,
+                       const size_t *sorted, size_t column);
 
 /* The slope of the numbers of a column over the sizes, in logs. */
 double br_evidence_order(const struct br_roles *roles, const struct br_candidate *candidate,
