@@ -187,6 +187,19 @@ static bool grows_by(const struct view *v, double more, double factor, bool stea
     return pairs >= 2 && off <= 0.08;
 }
 
+/* Whether all numbers are whole powers, 11^3, 13^3, 17^3, and not of a power that has them, too. */
+static bool are_powers(const struct view *v, double power)
+{
+    const struct br_role_column *c = own(v);
+    bool are = power > 1 && c->is_whole && c->least >= 1, also = power == 2;
+    for (size_t i = 0; i < v->roles->rows && are && c->number; i++) {
+        const double side = round(pow(c->number[i], 1 / power)), edge = round(cbrt(c->number[i]));
+        are = isnan(c->number[i]) || pow(side, power) == c->number[i];
+        also &= isnan(c->number[i]) || pow(edge, 3) == c->number[i];
+    }
+    return are && !also;
+}
+
 static bool grows_in(const struct view *v, double dimension)
 {
     const bool dofs = has_name(v, "dofs");
@@ -384,18 +397,37 @@ static bool has_a_second(const struct view *v)
     return 0;
 }
 
-/* Unknowns and cells, beside a column that is called h, n or level. */
+/* Unknowns and cells, beside a column that is called h, n or level; a level beside an h. */
 static bool is_beside_a_size(const struct view *v)
 {
-    for (size_t i = 0; i < v->roles->columns && v->candidate->size.states->is_volume; i++) {
+    const bool level = v->candidate->size.states->is_power;
+    for (size_t i = 0; i < v->roles->columns && (level || v->candidate->size.states->is_volume);
+         i++) {
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
+                (!level || s->is_size) &&
                 c->least < c->most && c->numbers == v->roles->rows &&
                 br_odds(c, s) >= BR_USUAL_NAME)
                 return true;
     }
-    return 0;
+    return false;
+}
+
+/* Whether a column is equally spaced, which parameters are and errors are not. */
+static bool is_even(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    size_t count = 0;
+    double step = NAN;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p); count++) {
+        const double by = e[p.coarse] - e[p.fine];
+        if (count && !(fabs(by - step) <= 1e-9 * fabs(step)))
+            return false;
+        step = count ? step : by;
+    }
+    return count > 2;
 }
 
 /* ---- the tables ---- */
@@ -412,6 +444,8 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     const double grow = grow_all(&v);
     const bool rates = v.rates.columns, several = v.rates.compared > 1,
                gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
+               powers = s->is_volume && !are_powers(&v, d) &&
+                        (are_powers(&v, 2) || are_powers(&v, 3)),
                plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
                        !grows_in(&v, 3),
                many =
@@ -427,6 +461,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
         {gives && v.rates.exact && several, 3}, /* to the last digit */
         {contradicts, -4},                      /* the table has other rates */
         {grows(&v), 2},               /* it grows as a number of this kind does where h halves */
+        {powers, -2.5},               /* it counts a square or a cube of another dimension */
         {plane, 1.5},                 /* most meshes with unknowns are 2-D */
         {many, -3},                   /* few meshes are 1-D and have so many cells */
         {falls_by(&v, log(2)), 0.75}, /* its sizes halve */
@@ -469,6 +504,7 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
         {dips(&v, column) && (named || !stays(&v, column)), 1.5}, /* it falls with the sizes */
         {climbs(&v, column) && c->is_whole && c->most > 1, -4},   /* it counts */
         {hardly_changes(c), -2.5},                                /* it hardly changes */
+        {!named && is_even(&v, column), -4},                      /* it is a parameter */
         {has_a_limit, -4},             /* it is a coefficient, and does not fall far */
         {c->least < 0 && !named, -9},  /* it has both signs */
         {c->numbers <= c->words, -99}, /* it has words */
