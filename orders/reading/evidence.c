@@ -356,9 +356,9 @@ bool br_evidence_same(const struct br_roles *r, const double *a, const double *b
     return high - low <= tolerance;
 }
 
-/* Whether another column states the same sizes, in a usual way. */
+/* Whether another column states the same sizes in a usual way, to a tolerance. */
 static bool agrees(const struct view *v, size_t column, const struct br_resolution_column *states,
-                   double dimension)
+                   double dimension, double tolerance)
 {
     const struct br_role_column *c = &v->roles->column[column];
     double low = INFINITY, high = -INFINITY;
@@ -371,7 +371,7 @@ static bool agrees(const struct view *v, size_t column, const struct br_resoluti
         low = fmin(low, by);
         high = fmax(high, by);
     }
-    return high - low <= 0.01;
+    return high - low <= tolerance;
 }
 
 static bool has_a_second(const struct view *v)
@@ -390,23 +390,25 @@ static bool has_a_second(const struct view *v)
                             !s->is_size && c->least >= 1)))
                 continue;
             for (int d = 1; d <= (s->is_volume ? 3 : 1); d++)
-                if (agrees(v, i, s, d))
+                if (agrees(v, i, s, d, 0.01))
                     return true;
         }
     }
     return 0;
 }
 
-/* Unknowns and cells, beside a column that is called h, n or level; a level beside an h. */
+/* Unknowns and cells, beside a column that is called h, n or level; a level beside an h that is
+ * almost its. */
 static bool is_beside_a_size(const struct view *v)
 {
+    static const double almost = 0.15; /* of logs */
     const bool level = v->candidate->size.states->is_power;
     for (size_t i = 0; i < v->roles->columns && (level || v->candidate->size.states->is_volume);
          i++) {
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
-                (!level || s->is_size) &&
+                (!level || (s->is_size && agrees(v, i, s, 1, almost))) &&
                 c->least < c->most && c->numbers == v->roles->rows &&
                 br_odds(c, s) >= BR_USUAL_NAME)
                 return true;
@@ -447,7 +449,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
                powers = s->is_volume && !are_powers(&v, d) &&
                         (are_powers(&v, 2) || are_powers(&v, 3)),
                plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
-                       !grows_in(&v, 3),
+                       !grows_in(&v, 3) && !are_powers(&v, 3),
                many =
                    s->is_volume && d == 1 && !(roles->wishes->dimension > 0) && c->most > few_cells,
                fractions = !s->is_size && !c->is_whole && !strpbrk(c->name ? c->name : "", "/");
