@@ -416,6 +416,17 @@ static bool is_beside_a_size(const struct view *v)
     return false;
 }
 
+/* Whether a column without the name of an error falls far less than one that has it. */
+static bool falls_less(const struct br_roles *r, const struct br_role_column *c)
+{
+    static const double little = 2, far = 8;
+    bool less = false;
+    for (size_t i = 0; i < r->columns && c->most < little * c->least; i++)
+        less |= r->column[i].kind == BR_KIND_ERROR && r->column[i].least > 0 &&
+                r->column[i].most > far * r->column[i].least;
+    return less;
+}
+
 /* Whether a column is equally spaced, which parameters are and errors are not. */
 static bool is_even(const struct view *v, size_t column)
 {
@@ -507,6 +518,7 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
         {climbs(&v, column) && c->is_whole && c->most > 1, -4},   /* it counts */
         {hardly_changes(c), -2.5},                                /* it hardly changes */
         {!named && is_even(&v, column), -4},                      /* it is a parameter */
+        {!named && falls_less(roles, c), -3},                     /* it is a value beside errors */
         {has_a_limit, -4},             /* it is a coefficient, and does not fall far */
         {c->least < 0 && !named, -9},  /* it has both signs */
         {c->numbers <= c->words, -99}, /* it has words */

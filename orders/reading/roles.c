@@ -224,6 +224,18 @@ static bool is_power_of_size(const struct br_roles *r, size_t i)
     return false;
 }
 
+/* Whether another column of errors has these numbers without their signs. */
+static bool has_magnitudes(const struct br_roles *r, size_t i)
+{
+    bool has = false;
+    for (size_t k = 0; k < r->columns && !has && r->column[i].least < 0; k++) {
+        has = k != i && br_role_is_studied(&r->column[k]);
+        for (size_t row = 0; row < r->rows && has; row++)
+            has = r->dropped[row] || fabs(r->column[i].number[row]) == r->column[k].number[row];
+    }
+    return has;
+}
+
 /* Why a column of errors shows no order; NULL: it may. most: of the greatest error. */
 static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
                             const size_t *sorted, size_t i, double most, bool errors)
@@ -233,6 +245,7 @@ static const char *why_idle(const struct br_roles *r, const struct br_candidate 
     return c->least == 0 && c->most == 0       ? "zeros"
            : !(c->least < c->most)             ? "one number only"
            : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"
+           : has_magnitudes(r, i)              ? "an error with its sign"
            : c->most <= small * most && !br_evidence_falls(r, over, sorted, i)
                ? "round-off beside the errors"
                : NULL;

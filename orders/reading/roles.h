@@ -84,6 +84,7 @@ struct br_role_column {
     const char *gap;             /* the last */
     bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
     double least, most;
+    bool without_sign; /* its errors were negative */
 
     bool by_hand;                              /* --column says what it is */
     const struct br_resolution_column *stated; /* by hand */
