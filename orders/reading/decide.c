@@ -164,12 +164,14 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
     return best;
 }
 
-/* How plainly a candidate states its sizes. */
+/* How plainly a candidate states its sizes: of 41, 81, 161 points the intervals halve. */
 static double plainness(const struct contest *t, const struct br_candidate *c)
 {
+    static const double halves = 6, volume = -2;
     const struct br_role_column *column = &t->roles->column[c->size.column];
     return column->by_hand ? 99
-                           : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
+                           : br_odds(column, c->size.states) + (c->halves && c->size.states->more ? halves : 0) +
+                                 (c->size.states->is_volume ? volume : 0);
 }
 
 /* Of the ways in which these sizes are stated the plainest. */

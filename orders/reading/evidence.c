@@ -215,7 +215,7 @@ static double grows(const struct view *v)
     const double odds = own(v)->by_hand || own(v)->named > BR_ANY_NAME ? 1 : 0.25;
     if (c->is_volume)
         return odds * grows_in(v, v->candidate->size.dimension);
-    return odds * (c->more && grows_by(v, c->more, 2, false));
+    return 2 * odds * (c->more && grows_by(v, c->more, 2, false));
 }
 
 /* Whether all sizes fall by one factor. */
@@ -492,6 +492,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     candidate->misses_rates = rates && !gives;
     candidate->contradicts_rates = contradicts;
     candidate->wrong_way = grow > 0;
+    candidate->halves = falls_by(&v, log(2));
 }
 
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,

@@ -112,6 +112,16 @@ static bool next_word(const char **at, char word[LONGEST])
     return length;
 }
 
+/* Whether one of the words of a name is in a list. */
+static bool has_word(const char *name, const char *words)
+{
+    char word[LONGEST];
+    while (next_word(&name, word))
+        if (lists(words, word))
+            return true;
+    return false;
+}
+
 /* The last word of a name (out); returns how many it has. */
 static size_t last_word(const char *name, char last[LONGEST])
 {
@@ -333,6 +343,12 @@ double br_size_name_odds(const char *name)
     return most;
 }
 
+bool br_is_summary(const char *text)
+{
+    return has_word(text, " richardson extrapolated extrapolation gci exact reference theory theoretical "
+                          "analytical expected asymptotic limit mean average order ");
+}
+
 /* A field that says that there is no number, beside those that number.c knows. */
 bool br_is_gap(const char *text)
 {
@@ -420,16 +436,6 @@ bool br_is_coefficient(const char *name)
     const bool letters = *text == 'c' && text[1] && strchr("dlfmp", text[1]);
     return (letters && strspn(text + 2, "pvfd0123456789") == strlen(text + 2)) ||
            lists(" drag lift nusselt strouhal ", text);
-}
-
-/* Whether one of the words of a name is in a list. */
-static bool has_word(const char *name, const char *words)
-{
-    char word[LONGEST];
-    while (next_word(&name, word))
-        if (lists(words, word))
-            return true;
-    return false;
 }
 
 bool br_says_error(const char *name)

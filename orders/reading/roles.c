@@ -39,6 +39,26 @@ static void drop_zeros(struct br_roles *r)
         br_roles_read_column(r, i);
 }
 
+/* Rows without a size that say what they are, "Richardson extrapolated", are no runs. */
+static void drop_summaries(struct br_roles *r)
+{
+    bool dropped = false;
+    for (size_t i = 0; i < r->rows; i++) {
+        bool sizes = false, says = false;
+        for (int axis = 0; axis < BR_AXES; axis++)
+            sizes |= r->size[axis].states &&
+                     !br_field_is_missing(br_role_field(r, i, r->size[axis].column));
+        for (size_t k = 0; k < r->columns && !sizes && !says; k++)
+            says = br_is_summary(br_role_text(r, i, k));
+        if (r->dropped[i] || !says)
+            continue;
+        r->dropped[i] = "a summary";
+        dropped = true;
+    }
+    for (size_t i = 0; i < r->columns && dropped; i++)
+        br_roles_read_column(r, i);
+}
+
 /* Refuses words among the numbers of a column that is called a size. */
 static enum br_status check_sizes(const struct br_roles *r, struct br_error *err)
 {
@@ -464,6 +484,8 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     const bool sizes = r->size[BR_AXIS_SPACE].states || r->size[BR_AXIS_TIME].states;
     if (!sizes && halve_by_row(r, err))
         return err->status;
+    if (sizes)
+        drop_summaries(r);
     const enum br_axis axis = r->size[BR_AXIS_SPACE].states ? BR_AXIS_SPACE : BR_AXIS_TIME;
     struct br_candidate over = {.size = r->size[axis], .log_z = r->log_z[axis]};
     size_t *sorted = br_store_take(&r->store, r->rows + 1, sizeof *sorted);

@@ -65,6 +65,9 @@ bool br_is_unit(const char *text);
 /* Whether a name is that of a number of samples, which is no number of elements. */
 bool br_is_samples(const char *name);
 
+/* Whether a field says that its row has no run: "Richardson extrapolated". */
+bool br_is_summary(const char *text);
+
 /* Whether a field says that there is no number: "diverged". */
 bool br_is_gap(const char *text);
 
@@ -85,6 +88,7 @@ struct br_role_column {
     bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
     double least, most;
     bool without_sign; /* its errors were negative */
+    bool fills;        /* a word counts for the empty fields below it, too */
 
     bool by_hand;                              /* --column says what it is */
     const struct br_resolution_column *stated; /* by hand */
@@ -160,6 +164,8 @@ enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
 
 static inline const char *br_role_field(const struct br_roles *r, size_t row, size_t column)
 {
+    while (r->column[column].fills && row && !r->fields->field[row * r->columns + column])
+        row--;
     return r->fields->field[row * r->columns + column];
 }
 
@@ -202,7 +208,7 @@ struct br_candidate {
     struct br_size size;
     double *log_z; /* rows; NaN: none */
     double odds;
-    bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way;
+    bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way, halves;
 };
 
 /* Adds up the evidence for a candidate. sorted: rows from coarse to fine, line after line, and
