@@ -194,6 +194,21 @@ static int power_of_all(const struct br_roles *r, size_t column)
     return all > 1 ? all : 1;
 }
 
+/* Whether all fields have the cells along each side: "8x8x8", "[8 8]". */
+static bool are_sides(const struct br_roles *r, size_t column)
+{
+    bool are = r->column[column].is_whole;
+    for (size_t i = 0; i < r->rows && are; i++) {
+        const char *text = br_role_text(r, i, column), *digits = text + strspn(text, " `$*");
+        digits += strspn(digits, "0123456789");
+        digits += strspn(digits, " ");
+        are = r->dropped[i] || br_field_is_missing(text) || strchr("[(", *text) ||
+              *digits == 'x' || strncmp(digits, "\xc3\x97", 2) == 0 ||
+              strncmp(digits, "\\times", 6) == 0;
+    }
+    return are;
+}
+
 /* Errors that are all negative are taken without their sign. */
 static void drop_signs(const struct br_roles *r, struct br_role_column *c)
 {
@@ -250,6 +265,7 @@ void br_roles_read_column(struct br_roles *r, size_t column)
         c->most = fmax(c->most, n.value);
     }
     c->is_whole &= c->numbers > 0;
+    c->of_sides = sides > 1 || are_sides(r, column);
     drop_signs(r, c);
     find_rounding(r, column);
 }

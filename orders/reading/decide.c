@@ -84,6 +84,9 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
         return false;
     if (c->by_hand)
         return c->stated == s;
+    if (c->of_sides)
+        return !s->is_size && !s->is_volume && !s->is_power && s->axis == BR_AXIS_SPACE &&
+               c->least >= 1 && c->least < c->most;
     if (!s->is_volume && t->roles->wishes->dimension > 0 && counts_volume(c))
         return false; /* whoever states the dimension says what the cells count */
     if (!(c->least < c->most) || (c->kind == BR_KIND_DEGREE && c->is_whole) ||

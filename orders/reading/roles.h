@@ -87,6 +87,7 @@ struct br_role_column {
     const char *gap;             /* the last */
     bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
     double least, most;
+    bool of_sides;     /* "8x8": the cells along each side */
     bool without_sign; /* its errors were negative */
     bool fills;        /* a word counts for the empty fields below it, too */
 
