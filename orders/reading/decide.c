@@ -593,9 +593,10 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
     }
     if (find_best(&of_space, &space, err))
         return err->status;
-    const struct br_role_column *c = space ? &r->column[space->size.column] : NULL;
+    const struct br_candidate *plain = space ? plainest(&of_space, space) : NULL;
+    const struct br_role_column *c = space ? &r->column[plain->size.column] : NULL;
     if (space && time && !c->by_hand &&
-        (br_odds(c, space->size.states) < 2 ||
+        (br_odds(c, plain->size.states) < 2 ||
          (space->contradicts_rates && time->agrees_with_rates)))
         space = NULL;
     if (space && time) {

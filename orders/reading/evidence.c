@@ -474,7 +474,9 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
         {gives && v.rates.exact && several, 3}, /* to the last digit */
         {contradicts, -4},                      /* the table has other rates */
         {grows(&v), 2},               /* it grows as a number of this kind does where h halves */
-        {c->of_sides, 3},             /* "8x8": cells along each side */
+        {c->of_sides && !s->more, 3}, /* "8x8": cells along each side, or points */
+        {c->of_sides && s->more && br_odds(c, br_resolution_column_find("cells")) < BR_USUAL_NAME,
+         2},
         {powers, -2.5},               /* it counts a square or a cube of another dimension */
         {plane, 1.5},                 /* most meshes with unknowns are 2-D */
         {many, -3},                   /* few meshes are 1-D and have so many cells */
