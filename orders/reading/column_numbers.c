@@ -202,9 +202,8 @@ static bool are_sides(const struct br_roles *r, size_t column)
         const char *text = br_role_text(r, i, column), *digits = text + strspn(text, " `$*");
         digits += strspn(digits, "0123456789");
         digits += strspn(digits, " ");
-        are = r->dropped[i] || br_field_is_missing(text) || strchr("[(", *text) ||
-              *digits == 'x' || strncmp(digits, "\xc3\x97", 2) == 0 ||
-              strncmp(digits, "\\times", 6) == 0;
+        are = r->dropped[i] || br_field_is_missing(text) || strchr("[(", *text) || *digits == 'x' ||
+              strncmp(digits, "\xc3\x97", 2) == 0 || strncmp(digits, "\\times", 6) == 0;
     }
     return are;
 }
@@ -212,7 +211,8 @@ static bool are_sides(const struct br_roles *r, size_t column)
 /* Errors that are all negative are taken without their sign. */
 static void drop_signs(const struct br_roles *r, struct br_role_column *c)
 {
-    const bool is_error = c->kind == BR_KIND_ERROR ? br_says_error(c->name) : c->role == BR_ROLE_ERROR;
+    const bool is_error =
+        c->kind == BR_KIND_ERROR ? br_says_error(c->name) : c->role == BR_ROLE_ERROR;
     c->without_sign = is_error && !c->is_value && c->numbers && c->least < 0 && c->most <= 0;
     for (size_t i = 0; i < r->rows && c->without_sign; i++)
         c->number[i] = fabs(c->number[i]);

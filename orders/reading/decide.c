@@ -173,7 +173,8 @@ static double plainness(const struct contest *t, const struct br_candidate *c)
     static const double halves = 6, volume = -2;
     const struct br_role_column *column = &t->roles->column[c->size.column];
     return column->by_hand ? 99
-                           : br_odds(column, c->size.states) + (c->halves && c->size.states->more ? halves : 0) +
+                           : br_odds(column, c->size.states) +
+                                 (c->halves && c->size.states->more ? halves : 0) +
                                  (c->size.states->is_volume ? volume : 0);
 }
 
@@ -534,8 +535,8 @@ static bool has_degrees(const struct br_roles *r)
     return false;
 }
 
-/* Whether the sizes of two axes are refined together: rows of a case that differ in one differ in the
- * other, to the same side. */
+/* Whether the sizes of two axes are refined together: rows of a case that differ in one differ in
+ * the other, to the same side. */
 static bool go_together(const struct br_roles *r, const double *log_a, const double *log_b)
 {
     size_t pairs = 0;
@@ -574,8 +575,8 @@ static void leave_one_axis(struct br_roles *r, const struct br_candidate **space
                           *k = &r->column[(*time)->size.column];
     if ((h->by_hand && k->by_hand) || !go_together(r, (*space)->log_z, (*time)->log_z))
         return;
-    const bool of_time = k->by_hand || (!h->by_hand && (*time)->agrees_with_rates &&
-                                        (*space)->contradicts_rates);
+    const bool of_time =
+        k->by_hand || (!h->by_hand && (*time)->agrees_with_rates && (*space)->contradicts_rates);
     *(of_time ? space : time) = NULL;
     (of_time ? h : k)->why = of_time ? "refined together with k" : "refined together with h";
 }

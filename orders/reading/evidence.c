@@ -408,9 +408,8 @@ static bool is_beside_a_size(const struct view *v)
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
-                (!level || (s->is_size && agrees(v, i, s, 1, almost))) &&
-                c->least < c->most && c->numbers == v->roles->rows &&
-                br_odds(c, s) >= BR_USUAL_NAME)
+                (!level || (s->is_size && agrees(v, i, s, 1, almost))) && c->least < c->most &&
+                c->numbers == v->roles->rows && br_odds(c, s) >= BR_USUAL_NAME)
                 return true;
     }
     return false;
@@ -457,8 +456,8 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     const double grow = grow_all(&v);
     const bool rates = v.rates.columns, several = v.rates.compared > 1,
                gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
-               powers = s->is_volume && !are_powers(&v, d) &&
-                        (are_powers(&v, 2) || are_powers(&v, 3)),
+               powers =
+                   s->is_volume && !are_powers(&v, d) && (are_powers(&v, 2) || are_powers(&v, 3)),
                plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
                        !grows_in(&v, 3) && !are_powers(&v, 3),
                many =
@@ -505,8 +504,8 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
     const struct view v = {roles, candidate, sorted, {0}};
     const struct br_role_column *c = &roles->column[column];
     const bool named = c->kind == BR_KIND_ERROR,
-               norm_of_values = named && !br_says_error(c->name) && hardly_changes(c) &&
-                                !dips(&v, column),
+               norm_of_values =
+                   named && !br_says_error(c->name) && hardly_changes(c) && !dips(&v, column),
                of_another_kind = !named && c->kind != BR_KIND_UNKNOWN &&
                                  !(c->kind == BR_KIND_DEGREE && !c->is_whole),
                has_a_limit =

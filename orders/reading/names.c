@@ -345,8 +345,9 @@ double br_size_name_odds(const char *name)
 
 bool br_is_summary(const char *text)
 {
-    return has_word(text, " richardson extrapolated extrapolation gci exact reference theory theoretical "
-                          "analytical expected asymptotic limit mean average order ");
+    return has_word(text,
+                    " richardson extrapolated extrapolation gci exact reference theory theoretical "
+                    "analytical expected asymptotic limit mean average order ");
 }
 
 /* A field that says that there is no number, beside those that number.c knows. */
