@@ -167,27 +167,28 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
     return best;
 }
 
-/* How plainly a candidate states its sizes: of 41, 81, 161 points the intervals halve. */
+/* How plainly a candidate states its sizes. */
 static double plainness(const struct contest *t, const struct br_candidate *c)
 {
-    static const double halves = 6, volume = -2;
     const struct br_role_column *column = &t->roles->column[c->size.column];
     return column->by_hand ? 99
-                           : br_odds(column, c->size.states) +
-                                 (c->halves && c->size.states->more ? halves : 0) +
-                                 (c->size.states->is_volume ? volume : 0);
+                           : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
 }
 
-/* Of the ways in which these sizes are stated the plainest. */
+/* Of the ways in which these sizes are stated the plainest. Of 41, 81, 161 points the intervals
+ * halve. */
 static const struct br_candidate *plainest(const struct contest *t, const struct br_candidate *best)
 {
     const struct br_candidate *found = best;
-    for (size_t i = 0; i < t->candidates; i++) {
-        const struct br_candidate *c = &t->candidate[i];
-        if (plainness(t, c) > plainness(t, found) &&
-            br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
-            found = c;
-    }
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < t->candidates; i++) {
+            const struct br_candidate *c = &t->candidate[i];
+            const bool halves = pass && c->halves && c->size.column == found->size.column &&
+                                !t->roles->column[c->size.column].by_hand;
+            if ((halves || (!pass && plainness(t, c) > plainness(t, found))) &&
+                br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
+                found = c;
+        }
     return found;
 }
 

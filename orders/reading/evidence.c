@@ -229,6 +229,17 @@ static bool falls_by(const struct view *v, double ratio)
     return pairs >= 2;
 }
 
+/* Whether a number doubles, as that of points almost does. */
+static bool doubles(const struct view *v)
+{
+    const double *number = own(v)->number;
+    struct pair p;
+    for (size_t at = 0; number && next_pair(v, &at, &p);)
+        if (!(fabs(log(number[p.fine] / number[p.coarse]) - log(2)) <= 2e-3))
+            return false;
+    return true;
+}
+
 static bool counts_up(const struct view *v)
 {
     struct pair p;
@@ -456,10 +467,10 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     const double grow = grow_all(&v);
     const bool rates = v.rates.columns, several = v.rates.compared > 1,
                gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
-               powers =
-                   s->is_volume && !are_powers(&v, d) && (are_powers(&v, 2) || are_powers(&v, 3)),
-               plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
-                       !grows_in(&v, 3) && !are_powers(&v, 3),
+               grown = grows_in(&v, 1) || grows_in(&v, 2) || grows_in(&v, 3),
+               powers = s->is_volume && !grown && !are_powers(&v, d) &&
+                        (are_powers(&v, 2) || are_powers(&v, 3)),
+               plane = has_name(&v, "dofs") && d == 2 && !grown && !are_powers(&v, 3),
                many =
                    s->is_volume && d == 1 && !(roles->wishes->dimension > 0) && c->most > few_cells,
                fractions = !s->is_size && !c->is_whole && !strpbrk(c->name ? c->name : "", "/");
@@ -476,7 +487,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
         {c->of_sides && !s->more, 3}, /* "8x8": cells along each side, or points */
         {c->of_sides && s->more && br_odds(c, br_resolution_column_find("cells")) < BR_USUAL_NAME,
          2},
-        {powers, -2.5},               /* it counts a square or a cube of another dimension */
+        {powers, -1.5},               /* it counts a square or a cube of another dimension */
         {plane, 1.5},                 /* most meshes with unknowns are 2-D */
         {many, -3},                   /* few meshes are 1-D and have so many cells */
         {falls_by(&v, log(2)), 0.75}, /* its sizes halve */
@@ -494,7 +505,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     candidate->misses_rates = rates && !gives;
     candidate->contradicts_rates = contradicts;
     candidate->wrong_way = grow > 0;
-    candidate->halves = falls_by(&v, log(2));
+    candidate->halves = s->more && falls_by(&v, log(2)) && !doubles(&v);
 }
 
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,

@@ -209,7 +209,8 @@ struct br_candidate {
     struct br_size size;
     double *log_z; /* rows; NaN: none */
     double odds;
-    bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way, halves;
+    bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way;
+    bool halves; /* intervals between points do, whose numbers do not double */
 };
 
 /* Adds up the evidence for a candidate. sorted: rows from coarse to fine, line after line, and
