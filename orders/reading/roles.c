@@ -260,13 +260,13 @@ static bool has_magnitudes(const struct br_roles *r, size_t i)
 static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
                             const size_t *sorted, size_t i, double most, bool errors)
 {
-    static const double small = 1e-6;
+    static const double small = 1e-6, of_round_off = 1e-8;
     const struct br_role_column *c = &r->column[i];
     return c->least == 0 && c->most == 0       ? "zeros"
            : !(c->least < c->most)             ? "one number only"
            : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"
            : has_magnitudes(r, i)              ? "an error with its sign"
-           : c->most <= small * most && !br_evidence_falls(r, over, sorted, i)
+           : c->most <= fmin(of_round_off, small * most) && !br_evidence_falls(r, over, sorted, i)
                ? "round-off beside the errors"
                : NULL;
 }
