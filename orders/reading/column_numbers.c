@@ -5,6 +5,7 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/words.h"
@@ -194,26 +195,31 @@ static int power_of_all(const struct br_roles *r, size_t column)
     return all > 1 ? all : 1;
 }
 
-/* Whether all fields have the cells along each side: "8x8x8", "[8 8]". */
+/* Whether all fields have the cells along each side: "8x8x8", "[8 8]"; but "8 x 10^3" has none. */
 static bool are_sides(const struct br_roles *r, size_t column)
 {
-    bool are = r->column[column].is_whole;
+    const struct br_role_column *c = &r->column[column];
+    bool are = c->is_whole;
     for (size_t i = 0; i < r->rows && are; i++) {
-        const char *text = br_role_text(r, i, column), *digits = text + strspn(text, " `$*");
-        digits += strspn(digits, "0123456789");
-        digits += strspn(digits, " ");
-        are = r->dropped[i] || br_field_is_missing(text) || strchr("[(", *text) || *digits == 'x' ||
-              strncmp(digits, "\xc3\x97", 2) == 0 || strncmp(digits, "\\times", 6) == 0;
+        const char *text = br_role_text(r, i, column) + strspn(br_role_text(r, i, column), " `$*");
+        const bool bracket = *text && strchr("[(", *text);
+        char *end;
+        const double first = strtod(text + bracket, &end);
+        end += strspn(end, " ");
+        are = isnan(c->number[i]) || (first == c->number[i] &&
+                                      (bracket || *end == 'x' || strncmp(end, "\xc3\x97", 2) == 0 ||
+                                       strncmp(end, "\\times", 6) == 0));
     }
     return are;
 }
 
-/* Errors that are all negative are taken without their sign. */
+/* Errors that are all negative, and fall, are taken without their sign. */
 static void drop_signs(const struct br_roles *r, struct br_role_column *c)
 {
+    static const double falls = 2;
     const bool is_error =
         c->kind == BR_KIND_ERROR ? br_says_error(c->name) : c->role == BR_ROLE_ERROR;
-    c->without_sign = is_error && !c->is_value && c->numbers && c->least < 0 && c->most <= 0;
+    c->without_sign = is_error && !c->is_value && c->most <= 0 && c->least < falls * c->most;
     for (size_t i = 0; i < r->rows && c->without_sign; i++)
         c->number[i] = fabs(c->number[i]);
     if (c->without_sign) {

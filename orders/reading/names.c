@@ -162,14 +162,12 @@ static bool without_letter(char text[LONGEST], const char *name, const char *col
 /* "N per direction", "cells along x": n; "steps per period": steps. NULL: nothing of the kind. */
 static const char *of_a_part(const char *name)
 {
-    char word[LONGEST];
-    size_t words = 0;
-    bool part = false, steps = false;
-    for (; next_word(&name, word); words++) {
-        part |= lists(" per along across through direction side dim edge ", word);
-        steps |= lists(" steps timesteps nsteps nt ", word);
-    }
-    return !part || words < 2 ? NULL : steps ? "steps" : "n";
+    char last[LONGEST];
+    return !has_word(name, " per along across through direction side dim edge ") ||
+                   last_word(name, last) < 2
+               ? NULL
+           : has_word(name, " steps timesteps nsteps nt ") ? "steps"
+                                                           : "n";
 }
 
 /* The odds that a list gives a plain name; *most: of any column. */
@@ -259,15 +257,8 @@ static bool without_unit(const char *name, char text[LONGEST])
 /* "normalized spacing", "average cell width". */
 static bool has_spacing(const char *name)
 {
-    char word[LONGEST];
-    bool mesh = false, width = false;
-    while (next_word(&name, word)) {
-        if (lists(" spacing ", word))
-            return true;
-        mesh |= lists(" mesh grid cell element zone ", word);
-        width |= lists(" width size length ", word);
-    }
-    return mesh && width;
+    return has_word(name, " spacing ") || (has_word(name, " mesh grid cell element zone ") &&
+                                           has_word(name, " width size length "));
 }
 
 /* A length that is called a resolution or a grid is a size. */
