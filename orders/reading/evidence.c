@@ -240,16 +240,6 @@ static bool doubles(const struct view *v)
     return true;
 }
 
-static bool counts_up(const struct view *v)
-{
-    struct pair p;
-    size_t pairs = 0;
-    bool one = v->candidate->size.states->is_power;
-    for (size_t at = 0; one && next_pair(v, &at, &p); pairs++)
-        one = fabs(p.ratio - log(2)) < 1e-9;
-    return v->candidate->size.states->is_power && !(one && pairs >= 2);
-}
-
 /* ---- errors ---- */
 
 /* How a column changes from coarse to fine: the mean of logs, for each e-fold of the size. */
@@ -491,7 +481,6 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
         {plane, 1.5},                 /* most meshes with unknowns are 2-D */
         {many, -3},                   /* few meshes are 1-D and have so many cells */
         {falls_by(&v, log(2)), 0.75}, /* its sizes halve */
-        {counts_up(&v), -4},          /* levels count by one */
         {has_a_second(&v), 3},        /* another column states the same sizes */
         {is_beside_a_size(&v), -4},   /* another column is called h, n or level */
         {some_fall(&v), 0.5},         /* something falls with its sizes */

@@ -159,15 +159,17 @@ static bool without_letter(char text[LONGEST], const char *name, const char *col
     return true;
 }
 
-/* "N per direction", "cells along x": n; "steps per period": steps. NULL: nothing of the kind. */
+/* "N per direction", "cells along x": n; "steps per period": steps. NULL: nothing of the kind, as
+ * "time per step". */
 static const char *of_a_part(const char *name)
 {
     char last[LONGEST];
-    return !has_word(name, " per along across through direction side dim edge ") ||
-                   last_word(name, last) < 2
-               ? NULL
-           : has_word(name, " steps timesteps nsteps nt ") ? "steps"
-                                                           : "n";
+    if (!has_word(name, " per along across through direction side dim edge ") ||
+        last_word(name, last) < 2)
+        return NULL;
+    return has_word(name, " steps timesteps nsteps nt ") ? "steps"
+           : br_kind_of(name) == BR_KIND_COST            ? NULL
+                                                         : "n";
 }
 
 /* The odds that a list gives a plain name; *most: of any column. */
