@@ -248,6 +248,15 @@ static void say_sizes(struct source *s, enum br_axis axis)
         say(s, ", d = %g%s", size->dimension, r->assumed_dimension ? " assumed" : "");
 }
 
+/* Which errors are taken without a sign. */
+static void say_signs(struct source *s)
+{
+    char text[200];
+    for (size_t i = 0; i < s->roles.columns; i++)
+        if (s->roles.column[i].role == BR_ROLE_ERROR && s->roles.column[i].without_sign)
+            say(s, "; %s without its sign", quoted(s->roles.column[i].label, text));
+}
+
 /* role: BR_ROLE_ASIDE, the costs. */
 static void say_columns(struct source *s, enum br_role role, const char *what)
 {
@@ -339,6 +348,7 @@ static enum br_status state(struct source *s, struct br_error *err)
     for (int axis = 0; axis < BR_AXES; axis++)
         say_sizes(s, (enum br_axis)axis);
     say_columns(s, BR_ROLE_ERROR, "; errors: ");
+    say_signs(s);
     say_columns(s, BR_ROLE_VALUE, "; values: ");
     say_columns(s, BR_ROLE_ASIDE, "; costs: ");
     say_columns(s, BR_ROLE_DEVIATION, "; standard deviations: ");

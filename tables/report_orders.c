@@ -33,11 +33,10 @@ static void say_meaning(struct br_document *d, const struct br_orders *o,
                         const struct br_quantity_orders *of, enum br_axis axis, double order)
 {
     static const char *const parts[] = {"half", "a quarter", "an eighth", "a sixteenth"};
-    const char *finer = o->tied                               ? "half h and k"
-                        : o->numbers->column[axis]->is_degree ? "twice the degree"
-                        : o->numbers->samples                 ? "twice the samples"
-                        : axis == BR_AXIS_SPACE               ? "half the mesh size"
-                                                              : "half the time step";
+    const char *finer = o->numbers->column[axis]->is_degree ? "twice the degree"
+                        : o->numbers->samples               ? "twice the samples"
+                        : axis == BR_AXIS_SPACE             ? "half the mesh size"
+                                                            : "half the time step";
     const bool joint = br_joint_describes(&of->joint);
     const char *number = br_quantity_of(o, of)->is_value ? "distance to the limit" : "error";
     const double factor = exp2(order), whole = round(order);

@@ -77,8 +77,9 @@ TEST(test_formats)
 
 TEST(test_names_and_units)
 {
-    struct br_numbers n = read_with(
-        "h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,4\n.5,2,2,2\n.25,1,,1\n", &plain);
+    struct br_numbers n =
+        read_with("h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,4\n.5,2,2,2\n.25,1,,1\n",
+                  &(struct columns){NULL, NULL, 2, "1=h,dt=dt"});
     assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
     assert_string_equal(n.unit[BR_AXIS_TIME], "s");
     assert_string_equal(n.column[BR_AXIS_TIME]->name, "dt");
@@ -271,7 +272,7 @@ static const struct {
      "Error' (title)",
      NULL},
     /* brackets that are no units */
-    {"h [m],L2(u) [m],L2(v),L2(p)\n1,4,1.6,1\n.5,2,.4,1\n.25,1,.1,1\n", "L2(v)", 2,
+    {"h [m],L2(u) [m],L2(v),L2(p)\n1,4,1.6,4\n.5,2,.4,2\n.25,1,.1,1\n", "L2(v)", 2,
      "h from column h; errors: L2(u), L2(v), L2(p)", NULL},
     /* named by hand */
     {"Elemente;Gitterweite;Fehler\n8;0,125;1,6\n16;0,0625;0,4\n32;0,03125;0,1\n", "Fehler", 2,
@@ -282,7 +283,7 @@ static const struct {
     {"mesh,e\n8x8,1.6\n16x16,.4\n32\xc3\x97"
      "32,.1\n",
      "e", 2, "h = 1/n from column mesh; errors: e", "mesh=n"},
-    {"h,cells,order,e\n1,8,1.6,3\n1,32,.4,3\n1,128,.1,3\n", "order", 1,
+    {"h,cells,order,e\n1,8,1.6,4\n1,32,.4,2\n1,128,.1,1\n", "order", 1,
      "h = 1/n from column cells; errors: order, e; left aside: h (one number only)",
      "cells=n,order=order"},
     {"h,L2=u-u_h\n1,1.6\n.5,.4\n.25,.1\n", "e", 2, "h from column h; errors: e", "L2=u-u_h=e"},

@@ -189,7 +189,7 @@ static const struct {
      ":t:3: found 'failed' between or beside the rows of lines 2 to 2"},
     {"8 1\n16 .2\n\n\n8 2\n16 1\n", ":t:5: the rows begin again as on line 1"},
     {"n,e\n8,1\n16,.2\n# P2\n8,2\n", ":t:5: the rows begin again as on line 2"},
-    {"Error for n=10 is 0.1\nError for n=20 is 0.02\n", "n|is|\n10|0.1|\n20|0.02|\n"},
+    {"Error for n=10 is 0.1\nError for n=20 is 0.02\n", "n|Error|\n10|0.1|\n20|0.02|\n"},
     {"error in n=0.1 at h=1\nerror in n=0.02 at h=2\n", "error in n|h|\n0.1|1|\n0.02|2|\n"},
     {"iterations n=3, e=1\niterations n=5, e=2\n", "iterations n|e|\n3|1|\n5|2|\n"},
     {"On N = 8 the H1 error is 1 and the L2 error was .1\nOn N = 16 the H1 error is .5 and the L2 error "

@@ -77,13 +77,14 @@ static size_t count_cases(const struct br_roles *r, size_t column)
 }
 
 /* Whether some column that is called a size has a number twice: a column of numbers may then tell
- * cases apart. */
-static bool a_size_repeats(const struct br_roles *r, size_t but)
+ * cases apart. whole: also one of whole numbers. */
+static bool a_size_repeats(const struct br_roles *r, size_t but, bool whole)
 {
     for (size_t i = 0; i < r->columns; i++) {
         const struct br_role_column *c = &r->column[i];
         if (i == but || c->words || !(c->least < c->most) ||
-            !(c->stated || c->named >= BR_USUAL_NAME))
+            !(c->stated || c->named >= BR_USUAL_NAME ||
+              (whole && c->is_whole && c->kind == BR_KIND_UNKNOWN)))
             continue;
         for (size_t a = 0; a < r->rows; a++)
             for (size_t b = 0; b < a; b++)
@@ -91,6 +92,17 @@ static bool a_size_repeats(const struct br_roles *r, size_t but)
                     return true;
     }
     return false;
+}
+
+/* Whether a word of a column counts for the empty fields below it, too: where sizes begin anew. */
+static bool fills_down(const struct br_roles *r, size_t column)
+{
+    const struct br_role_column *c = &r->column[column];
+    size_t empty = 0;
+    for (size_t i = 0; i < r->rows; i++)
+        empty += !br_role_field(r, i, column);
+    return c->words && !c->numbers && empty && br_role_field(r, 0, column) &&
+           a_size_repeats(r, column, true);
 }
 
 /* The step by which small whole numbers count up; 0: there is none. */
@@ -155,7 +167,7 @@ static bool tells_cases(const struct br_roles *r, size_t i, bool by_numbers)
     if (!by_numbers)
         return c->words ? c->numbers == 0 : degree;
     if (c->words || degree || c->kind != BR_KIND_UNKNOWN || c->named >= BR_USUAL_NAME ||
-        !a_size_repeats(r, i))
+        !a_size_repeats(r, i, false))
         return false;
     for (size_t k = 0; k < r->columns; k++)
         if (k != i &&
@@ -193,9 +205,11 @@ static const char *name_group(struct br_roles *r, size_t row)
 
 enum br_status br_roles_find_cases(struct br_roles *r, struct br_error *err)
 {
-    for (size_t i = 0; i < r->columns; i++)
+    for (size_t i = 0; i < r->columns; i++) {
+        r->column[i].fills = fills_down(r, i);
         if (tells_cases(r, i, false))
             r->column[i].role = BR_ROLE_CASE;
+    }
     size_t by_numbers = BR_NO_ROW;
     for (size_t i = 0; i < r->columns; i++)
         if (tells_cases(r, i, true)) {

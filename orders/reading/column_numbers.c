@@ -5,7 +5,10 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "base/words.h"
 
 char *br_row_place(const struct br_fields *f, size_t row, char text[32])
 {
@@ -20,6 +23,8 @@ static const char *unit_in(const char *text)
     const char *end = text + strlen(text), *unit = end;
     if (end > text && end[-1] == '%')
         return end - 1;
+    if (end > text + 2 && strcmp(end - 2, "\xc2\xb0") == 0)
+        return end - 2;
     while (unit > text && isalpha((unsigned char)unit[-1]))
         unit--;
     return unit > text && br_is_unit(unit) && (unit[-1] == ' ' || isdigit((unsigned char)unit[-1]))
@@ -32,6 +37,13 @@ static bool is_percent(const char *unit)
     return unit && *unit == '%';
 }
 
+/* Whether a text ends with a "K" of a thousand: that of a number of cells is not a kelvin. */
+static bool ends_with_thousand(const struct br_role_column *c, const char *text)
+{
+    const size_t length = strlen(text);
+    return length > 1 && text[length - 1] == 'K' && c->named >= BR_USUAL_NAME;
+}
+
 /* The unit that all numbers of a column have in their fields; NULL: there is none. */
 static const char *unit_of_all(const struct br_roles *r, size_t column)
 {
@@ -41,7 +53,8 @@ static const char *unit_of_all(const struct br_roles *r, size_t column)
         if (br_field_is_missing(text) || br_is_gap(text))
             continue;
         const char *unit = unit_in(text);
-        if (!unit || (all && strcmp(unit, all) != 0))
+        if (!unit || (all && strcmp(unit, all) != 0) ||
+            ends_with_thousand(&r->column[column], text))
             return NULL;
         all = unit;
     }
@@ -91,6 +104,8 @@ static bool read_field(const struct br_roles *r, size_t column, const char *text
     while (to > plain && to[-1] == ' ')
         to--;
     *to = '\0';
+    if (ends_with_thousand(c, plain))
+        to[-1] = 'k';
     return to > plain && br_field_read(plain, r->fields->mark, n);
 }
 
@@ -148,12 +163,79 @@ static bool has_powers(const struct br_roles *r, size_t column)
     return false;
 }
 
+/* The power of "64^2" in a field, a mesh with 64 cells along each side; 1: it has none. */
+static int power_of_sides(const char *text)
+{
+    static const struct {
+        const char *sign;
+        int power;
+    } signs[] = {{"^2", 2}, {"^{2}", 2}, {"\xc2\xb2", 2}, {"^3", 3}, {"^{3}", 3}, {"\xc2\xb3", 3}};
+    text += strspn(text, " `$*");
+    const size_t digits = strspn(text, "0123456789");
+    for (size_t i = 0; digits && i < sizeof signs / sizeof *signs; i++) {
+        const char *rest = text + digits;
+        if (br_takes(&rest, signs[i].sign) && !rest[strspn(rest, " `$*")])
+            return signs[i].power;
+    }
+    return 1;
+}
+
+/* The power that all fields of a column have, if its name is one of a side, and none of cells. */
+static int power_of_all(const struct br_roles *r, size_t column)
+{
+    const struct br_role_column *c = &r->column[column];
+    int all = br_odds(c, br_resolution_column_find("n")) >= 2 &&
+                      br_odds(c, br_resolution_column_find("cells")) < BR_USUAL_NAME
+                  ? 0
+                  : 1;
+    for (size_t i = 0; i < r->rows && all != 1; i++) {
+        const int power = power_of_sides(br_role_text(r, i, column));
+        all = all && power != all ? 1 : power;
+    }
+    return all > 1 ? all : 1;
+}
+
+/* Whether all fields have the cells along each side: "8x8x8", "[8 8]"; but "8 x 10^3" has none. */
+static bool are_sides(const struct br_roles *r, size_t column)
+{
+    const struct br_role_column *c = &r->column[column];
+    bool are = c->is_whole;
+    for (size_t i = 0; i < r->rows && are; i++) {
+        const char *text = br_role_text(r, i, column) + strspn(br_role_text(r, i, column), " `$*");
+        const bool bracket = *text && strchr("[(", *text);
+        char *end;
+        const double first = strtod(text + bracket, &end);
+        end += strspn(end, " ");
+        are = isnan(c->number[i]) || (first == c->number[i] &&
+                                      (bracket || *end == 'x' || strncmp(end, "\xc3\x97", 2) == 0 ||
+                                       strncmp(end, "\\times", 6) == 0));
+    }
+    return are;
+}
+
+/* Errors that are all negative, and fall, are taken without their sign. */
+static void drop_signs(const struct br_roles *r, struct br_role_column *c)
+{
+    static const double falls = 2;
+    const bool is_error =
+        c->kind == BR_KIND_ERROR ? br_says_error(c->name) : c->role == BR_ROLE_ERROR;
+    c->without_sign = is_error && !c->is_value && c->most <= 0 && c->least < falls * c->most;
+    for (size_t i = 0; i < r->rows && c->without_sign; i++)
+        c->number[i] = fabs(c->number[i]);
+    if (c->without_sign) {
+        const double most = -c->least;
+        c->least = fabs(c->most);
+        c->most = most;
+    }
+}
+
 /* Reads the numbers of a column in the rows that are not left aside. */
 void br_roles_read_column(struct br_roles *r, size_t column)
 {
     struct br_role_column *c = &r->column[column];
     c->numbers = c->words = c->gaps = 0;
     const bool powers = has_powers(r, column);
+    const int sides = power_of_all(r, column);
     c->unit_of_fields = unit_of_all(r, column);
     if (!c->unit && c->name && !is_percent(c->unit_of_fields)) /* 5 % is 0.05 */
         c->unit = c->unit_of_fields;
@@ -177,6 +259,8 @@ void br_roles_read_column(struct br_roles *r, size_t column)
         }
         if (is_percent(c->unit) && is_percent(c->unit_of_fields))
             n = (struct br_field_number){100 * n.value, 100 * n.deviation, NAN};
+        if (sides > 1)
+            n = (struct br_field_number){round(pow(n.value, 1.0 / sides)), NAN, NAN};
         if (powers && !isnan(n.of_power))
             n = (struct br_field_number){n.of_power, NAN, NAN};
         c->number[i] = n.value;
@@ -187,6 +271,8 @@ void br_roles_read_column(struct br_roles *r, size_t column)
         c->most = fmax(c->most, n.value);
     }
     c->is_whole &= c->numbers > 0;
+    c->of_sides = sides > 1 || are_sides(r, column);
+    drop_signs(r, c);
     find_rounding(r, column);
 }
 

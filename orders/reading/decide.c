@@ -84,6 +84,9 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
         return false;
     if (c->by_hand)
         return c->stated == s;
+    if (c->of_sides)
+        return !s->is_size && !s->is_volume && !s->is_power && s->axis == BR_AXIS_SPACE &&
+               c->least >= 1 && c->least < c->most;
     if (!s->is_volume && t->roles->wishes->dimension > 0 && counts_volume(c))
         return false; /* whoever states the dimension says what the cells count */
     if (!(c->least < c->most) || (c->kind == BR_KIND_DEGREE && c->is_whole) ||
@@ -172,16 +175,20 @@ static double plainness(const struct contest *t, const struct br_candidate *c)
                            : br_odds(column, c->size.states) - (c->size.states->is_volume ? 2 : 0);
 }
 
-/* Of the ways in which these sizes are stated the plainest. */
+/* Of the ways in which these sizes are stated the plainest. Of 41, 81, 161 points the intervals
+ * halve. */
 static const struct br_candidate *plainest(const struct contest *t, const struct br_candidate *best)
 {
     const struct br_candidate *found = best;
-    for (size_t i = 0; i < t->candidates; i++) {
-        const struct br_candidate *c = &t->candidate[i];
-        if (plainness(t, c) > plainness(t, found) &&
-            br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
-            found = c;
-    }
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < t->candidates; i++) {
+            const struct br_candidate *c = &t->candidate[i];
+            const bool halves = pass && c->halves && c->size.column == found->size.column &&
+                                !t->roles->column[c->size.column].by_hand;
+            if ((halves || (!pass && plainness(t, c) > plainness(t, found))) &&
+                br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
+                found = c;
+        }
     return found;
 }
 
@@ -529,24 +536,79 @@ static bool has_degrees(const struct br_roles *r)
     return false;
 }
 
+/* Whether the sizes of two axes are refined together: rows of a case that differ in one differ in
+ * the other, to the same side. */
+static bool go_together(const struct br_roles *r, const double *log_a, const double *log_b)
+{
+    size_t pairs = 0;
+    for (size_t i = 0; i < r->rows; i++)
+        for (size_t j = 0; j < i; j++) {
+            const double a = log_a[i] - log_a[j], b = log_b[i] - log_b[j];
+            if (isnan(a) || isnan(b) || r->group[i] != r->group[j])
+                continue;
+            if ((fabs(a) <= 1e-9) != (fabs(b) <= 1e-9) || a * b < 0)
+                return false;
+            pairs += fabs(a) > 1e-9;
+        }
+    return pairs > 0;
+}
+
+/* The best candidate of an axis; NULL: there is none. The contest keeps all. */
+static enum br_status find_best(struct contest *t, const struct br_candidate **best,
+                                struct br_error *err)
+{
+    *best = NULL;
+    set_lines(t->roles, t->axis);
+    if (gather(t, err) || check_counts(t, err))
+        return err->status;
+    *best = best_of(t, NULL);
+    if (*best && (*best)->odds < least_odds && has_degrees(t->roles)) /* they are the axis */
+        *best = NULL;
+    return BR_OK;
+}
+
+/* Of two axes that are refined together one counts: the one that --column states; the one that the
+ * rates of the table are of; h. */
+static void leave_one_axis(struct br_roles *r, const struct br_candidate **space,
+                           const struct br_candidate **time)
+{
+    struct br_role_column *h = &r->column[(*space)->size.column],
+                          *k = &r->column[(*time)->size.column];
+    if ((h->by_hand && k->by_hand) || !go_together(r, (*space)->log_z, (*time)->log_z))
+        return;
+    const bool of_time =
+        k->by_hand || (!h->by_hand && (*time)->agrees_with_rates && (*space)->contradicts_rates);
+    *(of_time ? space : time) = NULL;
+    (of_time ? h : k)->why = of_time ? "refined together with k" : "refined together with h";
+}
+
 enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
 {
-    bool time_gives_rates = false;
-    for (int i = BR_AXES; i-- > 0;) { /* time first: it is only known by its name */
-        struct contest t = {.roles = r, .axis = (enum br_axis)i};
-        set_lines(r, t.axis);
-        if (gather(&t, err) || check_counts(&t, err))
-            return err->status;
-        const struct br_candidate *best = best_of(&t, NULL);
-        const struct br_role_column *c = best ? &r->column[best->size.column] : NULL;
-        if (best && i == BR_AXIS_SPACE && r->size[BR_AXIS_TIME].states && !c->by_hand &&
-            (br_odds(c, best->size.states) < 2 || (best->contradicts_rates && time_gives_rates)))
-            best = NULL;
-        if (best && best->odds < least_odds && has_degrees(r)) /* they are the axis */
-            best = NULL;
-        if (best && choose(&t, best, err))
-            return err->status;
-        time_gives_rates = best && best->agrees_with_rates;
+    struct contest of_time = {.roles = r, .axis = BR_AXIS_TIME},
+                   of_space = {.roles = r, .axis = BR_AXIS_SPACE};
+    const struct br_candidate *time, *space;
+    if (find_best(&of_time, &time, err)) /* time first: it is only known by its name */
+        return err->status;
+    if (time) {
+        r->log_z[BR_AXIS_TIME] = time->log_z;
+        r->column[time->size.column].role = BR_ROLE_SIZE;
     }
-    return BR_OK;
+    if (find_best(&of_space, &space, err))
+        return err->status;
+    const struct br_candidate *plain = space ? plainest(&of_space, space) : NULL;
+    const struct br_role_column *c = space ? &r->column[plain->size.column] : NULL;
+    if (space && time && !c->by_hand &&
+        (br_odds(c, plain->size.states) < 2 ||
+         (space->contradicts_rates && time->agrees_with_rates)))
+        space = NULL;
+    if (space && time) {
+        struct br_role_column *k = &r->column[time->size.column];
+        leave_one_axis(r, &space, &time);
+        k->role = time ? k->role : BR_ROLE_ASIDE;
+        r->log_z[BR_AXIS_TIME] = time ? time->log_z : NULL;
+    }
+    if (time && (set_lines(r, BR_AXIS_TIME), choose(&of_time, time, err)))
+        return err->status;
+    set_lines(r, BR_AXIS_SPACE);
+    return space ? choose(&of_space, space, err) : BR_OK;
 }

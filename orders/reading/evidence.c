@@ -187,6 +187,19 @@ static bool grows_by(const struct view *v, double more, double factor, bool stea
     return pairs >= 2 && off <= 0.08;
 }
 
+/* Whether all numbers are whole powers, 11^3, 13^3, 17^3, and not of a power that has them, too. */
+static bool are_powers(const struct view *v, double power)
+{
+    const struct br_role_column *c = own(v);
+    bool are = power > 1 && c->is_whole && c->least >= 1, also = power == 2;
+    for (size_t i = 0; i < v->roles->rows && are && c->number; i++) {
+        const double side = round(pow(c->number[i], 1 / power)), edge = round(cbrt(c->number[i]));
+        are = isnan(c->number[i]) || pow(side, power) == c->number[i];
+        also &= isnan(c->number[i]) || pow(edge, 3) == c->number[i];
+    }
+    return are && !also;
+}
+
 static bool grows_in(const struct view *v, double dimension)
 {
     const bool dofs = has_name(v, "dofs");
@@ -202,7 +215,7 @@ static double grows(const struct view *v)
     const double odds = own(v)->by_hand || own(v)->named > BR_ANY_NAME ? 1 : 0.25;
     if (c->is_volume)
         return odds * grows_in(v, v->candidate->size.dimension);
-    return odds * (c->more && grows_by(v, c->more, 2, false));
+    return 2 * odds * (c->more && grows_by(v, c->more, 2, false));
 }
 
 /* Whether all sizes fall by one factor. */
@@ -216,14 +229,15 @@ static bool falls_by(const struct view *v, double ratio)
     return pairs >= 2;
 }
 
-static bool counts_up(const struct view *v)
+/* Whether a number doubles, as that of points almost does. */
+static bool doubles(const struct view *v)
 {
+    const double *number = own(v)->number;
     struct pair p;
-    size_t pairs = 0;
-    bool one = v->candidate->size.states->is_power;
-    for (size_t at = 0; one && next_pair(v, &at, &p); pairs++)
-        one = fabs(p.ratio - log(2)) < 1e-9;
-    return v->candidate->size.states->is_power && !(one && pairs >= 2);
+    for (size_t at = 0; number && next_pair(v, &at, &p);)
+        if (!(fabs(log(number[p.fine] / number[p.coarse]) - log(2)) <= 2e-3))
+            return false;
+    return true;
 }
 
 /* ---- errors ---- */
@@ -259,6 +273,19 @@ static bool dips(const struct view *v, size_t column)
             return true;
     }
     return false;
+}
+
+bool br_evidence_falls(const struct br_roles *roles, const struct br_candidate *candidate,
+                       const size_t *sorted, size_t column)
+{
+    static const double least = 0.3; /* rate */
+    const struct view v = {roles, candidate, sorted, {0}};
+    const double *e = roles->column[column].number;
+    struct pair p;
+    for (size_t at = 0; next_pair(&v, &at, &p);)
+        if (!(log(fabs(e[p.coarse] / e[p.fine])) >= least * p.ratio))
+            return false;
+    return true;
 }
 
 /* Whether a column grows from each size to the next finer one, as far as it changes. */
@@ -330,9 +357,9 @@ bool br_evidence_same(const struct br_roles *r, const double *a, const double *b
     return high - low <= tolerance;
 }
 
-/* Whether another column states the same sizes, in a usual way. */
+/* Whether another column states the same sizes in a usual way, to a tolerance. */
 static bool agrees(const struct view *v, size_t column, const struct br_resolution_column *states,
-                   double dimension)
+                   double dimension, double tolerance)
 {
     const struct br_role_column *c = &v->roles->column[column];
     double low = INFINITY, high = -INFINITY;
@@ -345,7 +372,7 @@ static bool agrees(const struct view *v, size_t column, const struct br_resoluti
         low = fmin(low, by);
         high = fmax(high, by);
     }
-    return high - low <= 0.01;
+    return high - low <= tolerance;
 }
 
 static bool has_a_second(const struct view *v)
@@ -364,25 +391,56 @@ static bool has_a_second(const struct view *v)
                             !s->is_size && c->least >= 1)))
                 continue;
             for (int d = 1; d <= (s->is_volume ? 3 : 1); d++)
-                if (agrees(v, i, s, d))
+                if (agrees(v, i, s, d, 0.01))
                     return true;
         }
     }
     return 0;
 }
 
-/* Unknowns and cells, beside a column that is called h, n or level. */
+/* Unknowns and cells, beside a column that is called h, n or level; a level beside an h that is
+ * almost its. */
 static bool is_beside_a_size(const struct view *v)
 {
-    for (size_t i = 0; i < v->roles->columns && v->candidate->size.states->is_volume; i++) {
+    static const double almost = 0.15; /* of logs */
+    const bool level = v->candidate->size.states->is_power;
+    for (size_t i = 0; i < v->roles->columns && (level || v->candidate->size.states->is_volume);
+         i++) {
         const struct br_role_column *c = &v->roles->column[i];
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
             if (i != v->candidate->size.column && !s->is_volume && s->axis == BR_AXIS_SPACE &&
-                c->least < c->most && c->numbers == v->roles->rows &&
-                br_odds(c, s) >= BR_USUAL_NAME)
+                (!level || (s->is_size && agrees(v, i, s, 1, almost))) && c->least < c->most &&
+                c->numbers == v->roles->rows && br_odds(c, s) >= BR_USUAL_NAME)
                 return true;
     }
-    return 0;
+    return false;
+}
+
+/* Whether a column without the name of an error falls far less than one that has it. */
+static bool falls_less(const struct br_roles *r, const struct br_role_column *c)
+{
+    static const double little = 2, far = 8;
+    bool less = false;
+    for (size_t i = 0; i < r->columns && c->most < little * c->least; i++)
+        less |= r->column[i].kind == BR_KIND_ERROR && r->column[i].least > 0 &&
+                r->column[i].most > far * r->column[i].least;
+    return less;
+}
+
+/* Whether a column is equally spaced, which parameters are and errors are not. */
+static bool is_even(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    size_t count = 0;
+    double step = NAN;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p); count++) {
+        const double by = e[p.coarse] - e[p.fine];
+        if (count && !(fabs(by - step) <= 1e-9 * fabs(step)))
+            return false;
+        step = count ? step : by;
+    }
+    return count > 2;
 }
 
 /* ---- the tables ---- */
@@ -399,8 +457,10 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     const double grow = grow_all(&v);
     const bool rates = v.rates.columns, several = v.rates.compared > 1,
                gives = rates && v.rates.all, contradicts = rates && !v.rates.all && !v.rates.near,
-               plane = has_name(&v, "dofs") && d == 2 && !grows_in(&v, 1) && !grows_in(&v, 2) &&
-                       !grows_in(&v, 3),
+               grown = grows_in(&v, 1) || grows_in(&v, 2) || grows_in(&v, 3),
+               powers = s->is_volume && !grown && !are_powers(&v, d) &&
+                        (are_powers(&v, 2) || are_powers(&v, 3)),
+               plane = has_name(&v, "dofs") && d == 2 && !grown && !are_powers(&v, 3),
                many =
                    s->is_volume && d == 1 && !(roles->wishes->dimension > 0) && c->most > few_cells,
                fractions = !s->is_size && !c->is_whole && !strpbrk(c->name ? c->name : "", "/");
@@ -414,10 +474,13 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
         {gives && v.rates.exact && several, 3}, /* to the last digit */
         {contradicts, -4},                      /* the table has other rates */
         {grows(&v), 2},               /* it grows as a number of this kind does where h halves */
+        {c->of_sides && !s->more, 3}, /* "8x8": cells along each side, or points */
+        {c->of_sides && s->more && br_odds(c, br_resolution_column_find("cells")) < BR_USUAL_NAME,
+         2},
+        {powers, -1.5},               /* it counts a square or a cube of another dimension */
         {plane, 1.5},                 /* most meshes with unknowns are 2-D */
         {many, -3},                   /* few meshes are 1-D and have so many cells */
         {falls_by(&v, log(2)), 0.75}, /* its sizes halve */
-        {counts_up(&v), -4},          /* levels count by one */
         {has_a_second(&v), 3},        /* another column states the same sizes */
         {is_beside_a_size(&v), -4},   /* another column is called h, n or level */
         {some_fall(&v), 0.5},         /* something falls with its sizes */
@@ -431,6 +494,7 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
     candidate->misses_rates = rates && !gives;
     candidate->contradicts_rates = contradicts;
     candidate->wrong_way = grow > 0;
+    candidate->halves = s->more && falls_by(&v, log(2)) && !doubles(&v);
 }
 
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
@@ -440,6 +504,8 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
     const struct view v = {roles, candidate, sorted, {0}};
     const struct br_role_column *c = &roles->column[column];
     const bool named = c->kind == BR_KIND_ERROR,
+               norm_of_values =
+                   named && !br_says_error(c->name) && hardly_changes(c) && !dips(&v, column),
                of_another_kind = !named && c->kind != BR_KIND_UNKNOWN &&
                                  !(c->kind == BR_KIND_DEGREE && !c->is_whole),
                has_a_limit =
@@ -449,10 +515,13 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
         double log_odds;
     } evidence[] = {
         {named, 3.5},          /* its heading */
+        {norm_of_values, -3},  /* "L2" of what comes to a limit */
         {of_another_kind, -5}, /* its heading is of a rate, a cost, a deviation or a degree */
         {dips(&v, column) && (named || !stays(&v, column)), 1.5}, /* it falls with the sizes */
         {climbs(&v, column) && c->is_whole && c->most > 1, -4},   /* it counts */
         {hardly_changes(c), -2.5},                                /* it hardly changes */
+        {!named && is_even(&v, column), -4},                      /* it is a parameter */
+        {!named && falls_less(roles, c), -3},                     /* it is a value beside errors */
         {has_a_limit, -4},             /* it is a coefficient, and does not fall far */
         {c->least < 0 && !named, -9},  /* it has both signs */
         {c->numbers <= c->words, -99}, /* it has words */

@@ -280,6 +280,7 @@ struct splitter {
     char mark, *room;
     struct br_token *token;
     size_t count;
+    char *before; /* in a sentence, what stood before the last symbol of a size; NULL */
 };
 
 static char *copy(struct splitter *s, const char *begin, const char *end)
@@ -475,12 +476,13 @@ static bool is_of_a_size(const char *name, const char *last)
     return !br_kind_of(name) || (before && is_one_of(" for at with ", before + 1, last));
 }
 
+static const char verbs[] = " is was are were equals of ";
+
 /* Moves the ends of a name inwards, past blanks, signs, and words that only join a sentence, as in
  * "and the H1 error is"; but a name has one word. */
 static void trim_name(const char **at, const char **end)
 {
-    static const char joins[] = " and the its with for of at on in then so has gives ",
-                      verbs[] = " is was are were equals of ";
+    static const char joins[] = " and the its with for of at on in then so has gives ";
     while (*end > *at && strchr(" \t=:,(", (*end)[-1]))
         --*end;
     for (const char *next;
@@ -498,10 +500,40 @@ static const char *copy_name(struct splitter *s, const char *at, const char *end
 {
     const size_t longest_symbol = 2;
     trim_name(&at, &end);
-    const char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
+    char *const name = copy(s, at, end), *const last = strrchr(name, ' ');
     const bool is_symbol = last && strlen(last + 1) <= longest_symbol &&
                            br_size_name_odds(last + 1) >= BR_USUAL_NAME && is_of_a_size(name, last);
-    return is_symbol ? last + 1 : name;
+    if (!is_symbol)
+        return name;
+    *last = '\0';
+    s->before = name;
+    return last + 1;
+}
+
+/* The name of a number behind a verb: "Error" of "Error for n = 10 is", without the word that joins
+ * it to the size. */
+static const char *name_of_verb(const struct splitter *s, const char *verb)
+{
+    char *const join = s->before ? strrchr(s->before, ' ') : NULL;
+    if (!join || !is_one_of(verbs, verb, verb + strlen(verb)))
+        return verb;
+    *join = '\0';
+    return s->before;
+}
+
+/* The word behind a number that ends its clause: "64 cells,". *behind: the end of the number, then
+ * of the word. Empty: there is none. */
+static const char *name_behind(struct splitter *s, const char **behind)
+{
+    const char *const word = *behind + strspn(*behind, " \t");
+    size_t length = 0;
+    while (isalpha((unsigned char)word[length]))
+        length++;
+    const char *const end = word + length + (word[length] == ')');
+    if (word == *behind || !length || (*end && !strchr(",;:", *end)))
+        return "";
+    *behind = end;
+    return copy(s, word, word + length);
 }
 
 /* The name with the unit that ends the clause of a number, as a heading has it: lines with other
@@ -540,6 +572,7 @@ static bool split_sentence(struct splitter *s, const char *at)
         const char *const begin = begin_of_name(at, next);
         const char *name = copy_name(s, begin + (*begin == '('), next);
         const char *const last = end_of_word(next, behind);
+        name = *name ? name_of_verb(s, name) : name_behind(s, &behind);
         if ((!*name && s->count) || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
             return false;
         name = add_unit(s, name, &behind);
@@ -551,7 +584,7 @@ static bool split_sentence(struct splitter *s, const char *at)
 size_t br_line_stated(const char *line, enum br_separator by, char mark, char *room,
                       struct br_token *token, bool *whole)
 {
-    struct splitter s = {by <= BR_BY_COLONS ? by : BR_BY_WORDS, mark, room, token, 0};
+    struct splitter s = {by <= BR_BY_COLONS ? by : BR_BY_WORDS, mark, room, token, 0, NULL};
     *whole = split_sentence(&s, line);
     return s.count;
 }
@@ -559,7 +592,7 @@ size_t br_line_stated(const char *line, enum br_separator by, char mark, char *r
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
                      struct br_token *token)
 {
-    struct splitter s = {by, mark, room, token, 0};
+    struct splitter s = {by, mark, room, token, 0, NULL};
     if (by <= BR_BY_COLONS) {
         const bool has_sign = by == BR_BY_WORDS || strchr(line, by == BR_BY_EQUALS ? '=' : ':');
         return has_sign && split_sentence(&s, line) ? s.count : 0;

@@ -23,7 +23,7 @@ static const struct {
     {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh "},
     {"n", 5,
      " nx ny cellsperside elementsperside inverseh invh hinv invdx 1overh gridresolution nxny "
-     "numel1d cellsperdim samples nsamples paths npaths "},
+     "numel1d cellsperdim samples nsamples samplesize paths npaths "},
     {"n", 4,
      " n nel nelements resolution intervals subdivisions nsub ndivisions divisions numintervals "
      "nintervals nn "},
@@ -112,6 +112,26 @@ static bool next_word(const char **at, char word[LONGEST])
     return length;
 }
 
+/* Whether one of the words of a name is in a list. */
+static bool has_word(const char *name, const char *words)
+{
+    char word[LONGEST];
+    while (next_word(&name, word))
+        if (lists(words, word))
+            return true;
+    return false;
+}
+
+/* The last word of a name (out); returns how many it has. */
+static size_t last_word(const char *name, char last[LONGEST])
+{
+    char word[LONGEST];
+    size_t words = 0;
+    for (*last = '\0'; next_word(&name, word); words++)
+        strcpy(last, word);
+    return words;
+}
+
 /* A name without the words that say nothing: "number of cells", "max h". */
 static void without_fill(const char *name, char text[LONGEST])
 {
@@ -130,9 +150,8 @@ static void without_fill(const char *name, char text[LONGEST])
 /* A name with its letter, "mesh width h", without it; false: there is none, or another one. */
 static bool without_letter(char text[LONGEST], const char *name, const char *column)
 {
-    char word[LONGEST], last[LONGEST] = "";
-    while (next_word(&name, word))
-        strcpy(last, word);
+    char last[LONGEST];
+    last_word(name, last);
     const size_t length = strlen(text), end = strlen(last);
     if (strcmp(last, column) != 0 || length <= end || strcmp(text + length - end, last) != 0)
         return false;
@@ -140,17 +159,17 @@ static bool without_letter(char text[LONGEST], const char *name, const char *col
     return true;
 }
 
-/* "N per direction", "cells along x": n; "steps per period": steps. NULL: nothing of the kind. */
+/* "N per direction", "cells along x": n; "steps per period": steps. NULL: nothing of the kind, as
+ * "time per step". */
 static const char *of_a_part(const char *name)
 {
-    char word[LONGEST];
-    size_t words = 0;
-    bool part = false, steps = false;
-    for (; next_word(&name, word); words++) {
-        part |= lists(" per along direction side dim edge ", word);
-        steps |= lists(" steps timesteps nsteps nt ", word);
-    }
-    return !part || words < 2 ? NULL : steps ? "steps" : "n";
+    char last[LONGEST];
+    if (!has_word(name, " per along across through direction side dim edge ") ||
+        last_word(name, last) < 2)
+        return NULL;
+    return has_word(name, " steps timesteps nsteps nt ") ? "steps"
+           : br_kind_of(name) == BR_KIND_COST            ? NULL
+                                                         : "n";
 }
 
 /* The odds that a list gives a plain name; *most: of any column. */
@@ -240,25 +259,17 @@ static bool without_unit(const char *name, char text[LONGEST])
 /* "normalized spacing", "average cell width". */
 static bool has_spacing(const char *name)
 {
-    char word[LONGEST];
-    bool mesh = false, width = false;
-    while (next_word(&name, word)) {
-        if (lists(" spacing ", word))
-            return true;
-        mesh |= lists(" mesh grid cell element zone ", word);
-        width |= lists(" width size length ", word);
-    }
-    return mesh && width;
+    return has_word(name, " spacing ") || (has_word(name, " mesh grid cell element zone ") &&
+                                           has_word(name, " width size length "));
 }
 
 /* A length that is called a resolution or a grid is a size. */
 static bool is_length(const char *name, const char *unit)
 {
     double most = 0;
-    char text[LONGEST], word[LONGEST], last[LONGEST] = "";
+    char text[LONGEST], last[LONGEST];
     plain(name, text);
-    while (next_word(&name, word))
-        strcpy(last, word);
+    last_word(name, last);
     return is_unit_of(BR_AXIS_SPACE, unit) &&
            (listed_odds(text, "h", &most) > 0 || lists(" step basesize ", text) ||
             strcmp(last, "resolution") == 0);
@@ -285,7 +296,9 @@ char *br_unit_behind_slash(char *name)
 
 double br_name_odds(const char *name, const char *unit, const struct br_resolution_column *column)
 {
-    const double unknown = column->axis == BR_AXIS_TIME ? -9 : 0.5, definite = 5, excluded = -2;
+    const double unknown = column->axis == BR_AXIS_TIME ? -9 : 0.5, definite = 5, excluded = -2,
+                 of_a_word = 1.5; /* less than of all: "macro subdivisions" */
+    enum { LEAST = 4 };           /* letters of such a word */
     char whole[LONGEST], bare[LONGEST], stripped[LONGEST];
     double best = -9, most = 0;
     if (!name)
@@ -306,6 +319,9 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
             best = listed_odds(bare, column->name, &most);
         if (!(most > 0) && has_spacing(name))
             is = "h";
+        if (!(most > 0) && !is && last_word(name, bare) > 1 && strlen(bare) >= LEAST &&
+            br_kind_of(name) == BR_KIND_UNKNOWN)
+            best = listed_odds(bare, column->name, &most) - of_a_word;
     }
     if (is)
         return strcmp(column->name, is) == 0 ? definite : fmin(excluded, unknown);
@@ -318,6 +334,13 @@ double br_size_name_odds(const char *name)
     for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
         most = fmax(most, br_name_odds(name, NULL, c));
     return most;
+}
+
+bool br_is_summary(const char *text)
+{
+    return has_word(text,
+                    " richardson extrapolated extrapolation gci exact reference theory theoretical "
+                    "analytical expected asymptotic limit mean average order ");
 }
 
 /* A field that says that there is no number, beside those that number.c knows. */
@@ -397,7 +420,7 @@ bool br_is_samples(const char *name)
 {
     char text[LONGEST];
     without_fill(name, text);
-    return lists(" samples nsamples paths npaths ", text);
+    return lists(" samples nsamples samplesize paths npaths ", text);
 }
 
 bool br_is_coefficient(const char *name)
@@ -407,6 +430,20 @@ bool br_is_coefficient(const char *name)
     const bool letters = *text == 'c' && text[1] && strchr("dlfmp", text[1]);
     return (letters && strspn(text + 2, "pvfd0123456789") == strlen(text + 2)) ||
            lists(" drag lift nusselt strouhal ", text);
+}
+
+bool br_says_error(const char *name)
+{
+    return has_word(name, " error errors err rmse mse mae rms difference diff fehler erreur errore "
+                          "erro defect semi ") ||
+           (*name == 'e' && !isalpha((unsigned char)name[1])) || strcmp(name, "E") == 0 ||
+           strchr(name, '-');
+}
+
+bool br_is_residual(const char *name)
+{
+    return has_word(name, " residual residuals res resid residuum ") &&
+           !has_word(name, " error errors err ");
 }
 
 static bool begins_as_error(const char *name)
@@ -427,15 +464,11 @@ int br_power_in(const char *name, char base[20])
 
 enum br_kind br_kind_of(const char *name)
 {
-    char word[LONGEST], last[LONGEST] = "";
-    size_t words = 0;
-    const char *at = name;
+    char word[LONGEST], last[LONGEST];
     if (!name)
         return BR_KIND_UNKNOWN;
-    while (next_word(&at, word)) {
-        strcpy(last, word);
-        words++;
-    }
+    const char *at;
+    const size_t words = last_word(name, last);
     if (words == 1 && lists(" r o p q o1 o2 oh l2r ", last))
         return strcmp(last, "p") == 0 || strcmp(last, "q") == 0 ? BR_KIND_DEGREE : BR_KIND_RATE;
     if (words == 1 && strcmp(last, "k") == 0)

@@ -39,6 +39,26 @@ static void drop_zeros(struct br_roles *r)
         br_roles_read_column(r, i);
 }
 
+/* Rows without a size that say what they are, "Richardson extrapolated", are no runs. */
+static void drop_summaries(struct br_roles *r)
+{
+    bool dropped = false;
+    for (size_t i = 0; i < r->rows; i++) {
+        bool sizes = false, says = false;
+        for (int axis = 0; axis < BR_AXES; axis++)
+            sizes |= r->size[axis].states &&
+                     !br_field_is_missing(br_role_field(r, i, r->size[axis].column));
+        for (size_t k = 0; k < r->columns && !sizes && !says; k++)
+            says = br_is_summary(br_role_text(r, i, k));
+        if (r->dropped[i] || !says)
+            continue;
+        r->dropped[i] = "a summary";
+        dropped = true;
+    }
+    for (size_t i = 0; i < r->columns && dropped; i++)
+        br_roles_read_column(r, i);
+}
+
 /* Refuses words among the numbers of a column that is called a size. */
 static enum br_status check_sizes(const struct br_roles *r, struct br_error *err)
 {
@@ -224,6 +244,61 @@ static bool is_power_of_size(const struct br_roles *r, size_t i)
     return false;
 }
 
+/* Whether another column of errors has these numbers without their signs. */
+static bool has_magnitudes(const struct br_roles *r, size_t i)
+{
+    bool has = false;
+    for (size_t k = 0; k < r->columns && !has && r->column[i].least < 0; k++) {
+        has = k != i && br_role_is_studied(&r->column[k]);
+        for (size_t row = 0; row < r->rows && has; row++)
+            has = r->dropped[row] || fabs(r->column[i].number[row]) == r->column[k].number[row];
+    }
+    return has;
+}
+
+/* Why a column of errors shows no order; NULL: it may. most: of the greatest error. */
+static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
+                            const size_t *sorted, size_t i, double most, bool errors)
+{
+    static const double small = 1e-6, of_round_off = 1e-8;
+    const struct br_role_column *c = &r->column[i];
+    return c->least == 0 && c->most == 0       ? "zeros"
+           : !(c->least < c->most)             ? "one number only"
+           : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"
+           : has_magnitudes(r, i)              ? "an error with its sign"
+           : c->most <= fmin(of_round_off, small * most) && !br_evidence_falls(r, over, sorted, i)
+               ? "round-off beside the errors"
+               : NULL;
+}
+
+static bool may_be_idle(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ERROR && !c->by_hand && c->name;
+}
+
+/* Leaves columns aside that show no order, beside one that may. */
+static void leave_idle(struct br_roles *r, const struct br_candidate *over, const size_t *sorted)
+{
+    double most = 0;
+    bool errors = false, others = false;
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        if (!br_role_is_studied(c))
+            continue;
+        most = fmax(most, c->most);
+        errors |= c->kind == BR_KIND_ERROR && !br_is_residual(c->name);
+    }
+    for (size_t i = 0; i < r->columns; i++)
+        others |= br_role_is_studied(&r->column[i]) &&
+                  !(may_be_idle(&r->column[i]) && why_idle(r, over, sorted, i, most, errors));
+    for (size_t i = 0; i < r->columns && others; i++) {
+        struct br_role_column *c = &r->column[i];
+        c->why = may_be_idle(c) ? why_idle(r, over, sorted, i, most, errors) : c->why;
+        if (may_be_idle(c) && c->why)
+            c->role = BR_ROLE_ASIDE;
+    }
+}
+
 static void take_errors(struct br_roles *r, const struct br_candidate *over, const size_t *sorted)
 {
     const bool asked = r->wishes->errors || r->wishes->values;
@@ -243,6 +318,8 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
                   : c->is_value ? BR_ROLE_VALUE
                                 : BR_ROLE_ERROR;
     }
+    if (!asked)
+        leave_idle(r, over, sorted);
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
         if (c->role == BR_ROLE_ASIDE && c->kind == BR_KIND_DEVIATION && c->numbers && !c->words &&
@@ -407,6 +484,8 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     const bool sizes = r->size[BR_AXIS_SPACE].states || r->size[BR_AXIS_TIME].states;
     if (!sizes && halve_by_row(r, err))
         return err->status;
+    if (sizes)
+        drop_summaries(r);
     const enum br_axis axis = r->size[BR_AXIS_SPACE].states ? BR_AXIS_SPACE : BR_AXIS_TIME;
     struct br_candidate over = {.size = r->size[axis], .log_z = r->log_z[axis]};
     size_t *sorted = br_store_take(&r->store, r->rows + 1, sizeof *sorted);

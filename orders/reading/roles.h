@@ -41,6 +41,11 @@ enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
 /* The power that a name gives of another one, its base (out): 2 of "h^2" and "dx2"; 0: none. */
 int br_power_in(const char *name, char base[20]);
 
+/* Whether a name says an error, not only a norm: "L2 error", "rmse", "u - u_h"; not "L2(u)". */
+bool br_says_error(const char *name);
+
+bool br_is_residual(const char *name); /* and not also an error's */
+
 /* Whether a name is that of a coefficient, which has a limit: "C_D", "cl", "drag". */
 bool br_is_coefficient(const char *name);
 
@@ -59,6 +64,9 @@ bool br_is_unit(const char *text);
 
 /* Whether a name is that of a number of samples, which is no number of elements. */
 bool br_is_samples(const char *name);
+
+/* Whether a field says that its row has no run: "Richardson extrapolated". */
+bool br_is_summary(const char *text);
 
 /* Whether a field says that there is no number: "diverged". */
 bool br_is_gap(const char *text);
@@ -79,6 +87,9 @@ struct br_role_column {
     const char *gap;             /* the last */
     bool is_whole, is_value;     /* is_value: --value says that its limit is not known */
     double least, most;
+    bool of_sides;     /* "8x8": the cells along each side */
+    bool without_sign; /* its errors were negative */
+    bool fills;        /* a word counts for the empty fields below it, too */
 
     bool by_hand;                              /* --column says what it is */
     const struct br_resolution_column *stated; /* by hand */
@@ -154,6 +165,8 @@ enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
 
 static inline const char *br_role_field(const struct br_roles *r, size_t row, size_t column)
 {
+    while (r->column[column].fills && row && !r->fields->field[row * r->columns + column])
+        row--;
     return r->fields->field[row * r->columns + column];
 }
 
@@ -197,6 +210,7 @@ struct br_candidate {
     double *log_z; /* rows; NaN: none */
     double odds;
     bool agrees_with_rates, misses_rates, contradicts_rates, wrong_way;
+    bool halves; /* intervals between points do, whose numbers do not double */
 };
 
 /* Adds up the evidence for a candidate. sorted: rows from coarse to fine, line after line, and
@@ -207,6 +221,10 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
 /* Log odds that a column has errors, over these sizes. */
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
                              const size_t *sorted, size_t column);
+
+/* Whether a column falls from each size to the next finer one. */
+bool br_evidence_falls(const struct br_roles *roles, const struct br_candidate *candidate,
+                       const size_t *sorted, size_t column);
 
 /* The slope of the numbers of a column over the sizes, in logs. */
 double br_evidence_order(const struct br_roles *roles, const struct br_candidate *candidate,

@@ -35,7 +35,7 @@
 #include "tests/checks.h"
 
 enum {
-    MOST_CASES = 400,
+    MOST_CASES = 600,
     MOST_SIZES = 200,
     MOST_NAMES = 32,
     MOST_FIELDS = 32,
