@@ -70,11 +70,11 @@ static enum br_status refuse_name(const struct br_orders_request *r, const char 
                                   const char *const *known, size_t count, struct br_error *err)
 {
     char expected[BR_EXPECTED] = "", word[80];
-    for (const struct br_left_aside *l = numbers->left; l < numbers->left + numbers->lefts; l++)
-        if (strcmp(l->what, name) == 0)
+    for (size_t i = 0; i < numbers->lefts; i++)
+        if (strcmp(numbers->left[i].what, name) == 0)
             return br_fail(err, BR_BAD_INPUT, "%s: %s: column %s is left aside: %s",
                            br_orders_path(r), where,
-                           br_quoted(word, sizeof word, &br_for_text, name), l->why);
+                           br_quoted(word, sizeof word, &br_for_text, name), numbers->left[i].why);
     if (count)
         br_expected(name, known, count, expected);
     if (br_resolution_column_find(name))

@@ -75,6 +75,7 @@ void cli_run(const char *const *word, const struct cli_circumstances *c, struct 
 {
     static const struct cli_circumstances usual;
     int ends[2];
+    assert_non_null(getenv("BEAMRATE"));
     assert_int_equal(pipe(ends), 0);
     const pid_t child = fork();
     assert_true(child >= 0);

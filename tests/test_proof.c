@@ -189,6 +189,7 @@ TEST(test_scene)
         struct br_error err = {0};
         REFUSED(read_load(rows[i].load, &scene, &err), BR_BAD_INPUT, rows[i].message);
         assert_non_null(strstr(err.message, ".yaml:8"));
+        br_scene_clear(&scene);
     }
 }
 

@@ -220,8 +220,7 @@ TEST(test_growth_of_loads)
             assert_true(i == 0 || (c->point[2].share > 0) == loaded);
         }
         br_stability_clear(&s);
-        br_function_free(&scene.axial.load.term[0].time);
-        scene.axial.load = (struct br_load){0};
+        br_load_clear(&scene.axial.load);
     }
 }
 

@@ -399,6 +399,7 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
                 other->failure = NULL;
             }
             free(other->number);
+            free(other->out);
             free(other->failure);
         }
         row.repeat = repeat;

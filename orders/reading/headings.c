@@ -260,7 +260,8 @@ static void settle_names(const struct br_roles *r, char *list)
         char *const to = list + (item - list);
         memcpy(to, c->name, size);
         memmove(to + size, to + length, strlen(to + length) + 1);
-        rest -= rest ? length - size : 0;
+        if (rest)
+            rest -= length - size;
     }
 }
 

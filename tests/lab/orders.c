@@ -348,7 +348,8 @@ static void print(const char *name, struct tally *t)
 {
     const size_t counted[] = {t->silent, t->pass, t->fail, t->wrong_pass, t->narrow};
     const double all = (double)t->lines / 100;
-    qsort(t->width, t->widths, sizeof *t->width, by_size);
+    if (t->widths)
+        qsort(t->width, t->widths, sizeof *t->width, by_size);
     printf("%-29s", name);
     print_column(6, "%.1f", (double)t->claims / all);
     print_column(6, "%.1f", t->claims ? 100 * (double)t->covers / (double)t->claims : NAN);
@@ -463,7 +464,8 @@ static void try_all_published(struct lab_run *run)
 /* A cell of a table: held of stated, and the median width. */
 static void print_cell(struct tally *t)
 {
-    qsort(t->width, t->widths, sizeof *t->width, by_size);
+    if (t->widths)
+        qsort(t->width, t->widths, sizeof *t->width, by_size);
     if (t->claims == 0)
         printf(" - |");
     else if (t->widths == 0)
