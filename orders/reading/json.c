@@ -8,6 +8,7 @@
 
 #include "base/words.h"
 #include "orders/reading/reading.h"
+#include "orders/reading/roles.h"
 
 enum { DEEPEST = 12, LONGEST = 400 };
 
@@ -225,13 +226,18 @@ static json_t *choose(struct source *s)
                                            : "an empty table",
                "");
     else if (!s->has_records)
-        json_object_foreach (chosen, of, column)
+        json_object_foreach (chosen, of, column) {
+            const enum br_kind kind = br_kind_of(of);
+            if ((kind == BR_KIND_RATE || kind == BR_KIND_FACTOR) && /* from row to row */
+                json_array_size(column) + 1 == s->fields->rows)
+                s->failed |= json_array_insert_new(column, 0, json_null()) != 0;
             if (json_array_size(column) != s->fields->rows) {
                 char why[60];
                 snprintf(why, sizeof why, "%zu values, but %zu of ", s->fields->rows,
                          json_array_size(column));
                 refuse(s, why, of);
             }
+        }
     return s->err->status ? NULL : chosen;
 }
 
@@ -339,6 +345,13 @@ enum br_status br_json_fields(const char *text, const char *path, struct br_fiel
     struct source s = {.path = path, .fields = fields, .err = err, .tables = json_object()};
     char *copy = without_nan(text);
     json_t *all = copy && s.tables ? load(&s, copy) : NULL;
+    const char *lists = NULL;
+    struct br_error other = {0};
+    if (copy && s.tables && !all && !br_lists_find(text, path, &fields->store, &lists, &other) &&
+        lists) { /* of Python, or numpy */
+        err->status = BR_OK;
+        all = load(&s, lists);
+    }
     enum br_status status = !copy || !s.tables ? br_no_memory(err, "the table") : err->status;
     if (!status)
         visit(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all, 0);

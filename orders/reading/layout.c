@@ -381,8 +381,11 @@ enum br_status br_fields_read(const char *text, const char *path,
 {
     *fields = (struct br_fields){.mark = '.'};
     err->status = BR_OK;
-    if (br_json_is_table(text))
-        return br_json_fields(text, path, fields, err);
+    const char *lists = NULL;
+    if (!br_json_is_table(text) && br_lists_find(text, path, &fields->store, &lists, err))
+        return err->status;
+    if (lists || br_json_is_table(text))
+        return br_json_fields(lists ? lists : text, path, fields, err);
     struct layout *l = br_store_take(&fields->store, 1, sizeof *l);
     char *copy = br_store_copy(&fields->store, text);
     if (!l || !copy)
