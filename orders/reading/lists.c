@@ -120,7 +120,7 @@ static const char *take_number(struct lists *s, const char *at, bool commas)
 {
     static const char words[] = " True False true false ";
     struct br_field_number number;
-    char text[80], word[80];
+    char text[64], word[72];
     const char *end = at + strcspn(at, commas ? ",;])}\n#%" : " \t,;])}\n#%");
     const char *const next = end;
     while (end > at && strchr(" \t\r", end[-1]))
