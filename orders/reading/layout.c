@@ -391,7 +391,8 @@ enum br_status br_fields_read(const char *text, const char *path,
     if (!l || !copy)
         return br_no_memory(err, "the table");
     *l = (struct layout){.path = path, .observer = observer, .err = err, .fields = fields};
-    return br_lines_cut(copy, path, &fields->store, &l->line, &l->lines, err) ||
+    return br_markup_flatten(&copy, &fields->store, err) ||
+                   br_lines_cut(copy, path, &fields->store, &l->line, &l->lines, err) ||
                    br_log_fold(l->line, l->lines, &fields->store, err)
                ? err->status
                : lay_out(l);

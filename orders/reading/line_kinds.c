@@ -417,18 +417,38 @@ static bool split_names(struct layout *l, size_t line, size_t wanted)
     return false;
 }
 
-/* A name without the stars and quotes of Markdown around it, and without gnuplot's "1:", in place;
- * NULL: it is empty. */
+/* How many columns a token stands above, as LaTeX has it; the token (out) becomes its text. */
+static size_t columns_of(char **text)
+{
+    size_t columns = 1;
+    int from = 0;
+    char *const at = strstr(*text, "\\multicolumn{");
+    if (!at || sscanf(at, "\\multicolumn{%4zu}{%*[^}]}{%n", &columns, &from) < 1 || !from)
+        return 1;
+    char *const close = strrchr(at + from, '}');
+    *text = at + from;
+    if (close)
+        *close = '\0';
+    return columns;
+}
+
+/* A name without the stars and quotes of Markdown around it, and without gnuplot's "1:" and
+ * what LaTeX has around it, in place; NULL: it is empty. */
 static const char *plain_name(char *name, size_t column)
 {
     char counted[24];
     snprintf(counted, sizeof counted, "%zu:", column + 1);
     if (strncmp(name, counted, strlen(counted)) == 0 && name[strlen(counted)])
         name += strlen(counted);
+    columns_of(&name);
     name += strspn(name, "*`");
     size_t length = strlen(name);
     while (length && strchr("*`", name[length - 1]))
         name[--length] = '\0';
+    if (*name == '{' && strchr(name, '}') == name + length - 1) {
+        name[length - 1] = '\0';
+        return length > 2 ? name + 1 : NULL;
+    }
     return length ? name : NULL;
 }
 
@@ -509,19 +529,6 @@ static size_t period_of(const struct layout *l, size_t groups)
             return p;
     }
     return 0;
-}
-
-/* How many columns a token stands above, as LaTeX has it; the token (out) becomes its text. */
-static size_t columns_of(char **text)
-{
-    size_t columns = 1;
-    int from = 0;
-    char *const at = strstr(*text, "\\multicolumn{");
-    if (!at || sscanf(at, "\\multicolumn{%4zu}{%*[^}]}{%n", &columns, &from) < 1 || !from)
-        return 1;
-    *text = at + from;
-    (*text)[strcspn(*text, "}")] = '\0';
-    return columns;
 }
 
 /* Finds the group of each column (out; NULL: none) in a line above the heading. */
