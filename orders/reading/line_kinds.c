@@ -73,7 +73,7 @@ static bool is_summary(const struct row *r)
 {
     static const char *const words[] = {"mean",  "average", "avg", "overall", "slope",
                                         "order", "eoc",     "fit", "total",   "median",
-                                        "min",   "max",     "std", "rate"};
+                                        "min",   "max",     "std", "rate",    "conv"};
     const char *const text = r->count ? r->token->text + strspn(r->token->text, "*_ ") : "";
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (strncasecmp(text, words[i], strlen(words[i])) == 0)
