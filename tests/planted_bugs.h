@@ -514,7 +514,7 @@ static const struct planted_bug planted_bugs[] = {
      "l->has_number[0] && is_summary(", "!l->lines && is_summary("},
     {"dropped_in_silence", "lost", "orders/reading/line_kinds.c", "tests/test_reading",
      "if (l->line[i].kind == BR_LINE_EMPTY || r->is_used ||", "if (l->lines || r->is_used ||"},
-    {"groups_are_titles", "lost", "orders/reading/line_kinds.c", "tests/test_reading",
+    {"groups_are_titles", "lost", "orders/reading/heading_line.c", "tests/test_reading",
      "if (!lack_groups(l))", "if (l->width)"},
     {"names_of_another_row", "lost", "orders/reading/layout.c", "tests/test_reading",
      "strcmp(token->name, name) != 0)", "!name)"},
