@@ -145,8 +145,14 @@ static bool has_names(const json_t *value)
     size_t i;
     json_t *name, *first = json_array_get(value, 0);
     bool names = json_array_size(first) > 0;
-    json_array_foreach(first, i, name) names &= json_is_string(name);
-    return names;
+    bool numbers = true;
+    struct br_field_number number;
+    json_array_foreach(first, i, name)
+    {
+        names &= json_is_string(name);
+        numbers &= names && br_field_read(json_string_value(name), '.', &number);
+    }
+    return names && !numbers;
 }
 
 static void visit(struct source *s, json_t *value, size_t depth)
@@ -347,7 +353,7 @@ enum br_status br_json_fields(const char *text, const char *path, struct br_fiel
     json_t *all = copy && s.tables ? load(&s, copy) : NULL;
     const char *lists = NULL;
     struct br_error other = {0};
-    if (copy && s.tables && !all && !br_lists_find(text, path, &fields->store, &lists, &other) &&
+    if (copy && s.tables && !all && !br_lists_find(text, path, fields, &lists, &other) &&
         lists) { /* of Python, or numpy */
         err->status = BR_OK;
         all = load(&s, lists);

@@ -382,7 +382,7 @@ enum br_status br_fields_read(const char *text, const char *path,
     *fields = (struct br_fields){.mark = '.'};
     err->status = BR_OK;
     const char *lists = NULL;
-    if (!br_json_is_table(text) && br_lists_find(text, path, &fields->store, &lists, err))
+    if (!br_json_is_table(text) && br_lists_find(text, path, fields, &lists, err))
         return err->status;
     if (lists || br_json_is_table(text))
         return br_json_fields(lists ? lists : text, path, fields, err);

@@ -13,8 +13,9 @@ enum { DEEPEST = 8, MOST_LISTS = 64, LEAST_VALUES = 3 };
 
 struct lists {
     const char *text;
-    char *json; /* what is written; it has room for all */
-    size_t length;
+    struct br_fields *fields;
+    char *json; /* what is written */
+    size_t length, room, left_room;
     struct list {
         const char *name, *end; /* in the text; both NULL: it has no name */
         const char *from;       /* its statement */
@@ -24,16 +25,11 @@ struct lists {
     bool broken; /* a bracket is never closed, or they are too deep */
 };
 
-static void put(struct lists *s, const char *text, const char *end)
-{
-    memcpy(s->json + s->length, text, (size_t)(end - text));
-    s->length += (size_t)(end - text);
-    s->json[s->length] = '\0';
-}
-
 static void put_sign(struct lists *s, char sign)
 {
-    put(s, &sign, &sign + 1);
+    s->json = br_store_grow(&s->fields->store, s->json, s->length, &s->room, 1);
+    if (s->json)
+        s->json[s->length++] = sign;
 }
 
 /* A text as a string of JSON. */
@@ -53,6 +49,13 @@ static void put_text(struct lists *s, const char *text, const char *end)
 static bool begins_comment(const char *at)
 {
     return *at == '#' || *at == '%' || strncmp(at, "//", 2) == 0;
+}
+
+/* Skips the prompt of a program, ">> ". */
+static const char *skip_prompt(const char *at)
+{
+    const size_t length = strspn(at, ">");
+    return at + (length > 1 ? length + strspn(at + length, " ") : 0);
 }
 
 /* Skips blanks, comments and continued lines; *lines (out) may be NULL: the ends of lines. */
@@ -244,6 +247,14 @@ static const char *take_list(struct lists *s, const char *at, int depth, size_t 
 
 /* ---- statements ---- */
 
+static size_t line_of(const struct lists *s, const char *at)
+{
+    size_t line = 1;
+    for (const char *c = s->text; c < at; c++)
+        line += *c == '\n';
+    return line;
+}
+
 /* The name at the begin of a statement, *end (out), and what follows its sign; NULL: there is none.
  */
 static const char *skip_name(const char **name, const char **end)
@@ -253,7 +264,8 @@ static const char *skip_name(const char **name, const char **end)
            (*at && strchr("_.-^'\" ", *at)))
         at++;
     const char *last = at;
-    if ((*at != '=' && *at != ':') || at[1] == '=')
+    const bool arrow = strncmp(at, "<-", 2) == 0; /* of R */
+    if ((*at != '=' && *at != ':' && !arrow) || at[1] == '=')
         return NULL;
     while (last > *name && last[-1] == ' ')
         last--;
@@ -263,84 +275,149 @@ static const char *skip_name(const char **name, const char **end)
     }
     *end = last;
     return last > *name && last - *name < 80 && !isdigit((unsigned char)**name)
-               ? skip_space(at + 1, NULL)
+               ? skip_space(at + 1 + arrow, NULL)
                : NULL;
+}
+
+static size_t number_length(const char *at)
+{
+    return strspn(at, "+-.0123456789e") * (isdigit((unsigned char)at[strspn(at, "+-.")]) != 0);
+}
+
+/* Takes the lines of numbers that MATLAB shows below a name: a row, a column, or a matrix. Above
+ * them may be a factor of all, "1.0e-03 *". */
+static const char *take_shown(struct lists *s, const char *at, size_t *count)
+{
+    char factor[8] = "";
+    int length = 0;
+    if (sscanf(at, "1.0e%7[-+0-9] *%n", factor, &length) == 1 && length)
+        at = skip_space(at + length, NULL);
+    const char *const second = at + number_length(at) + strspn(at + number_length(at), " ");
+    const bool is_matrix =
+        number_length(second) && number_length(skip_space(at + strcspn(at, "\n"), NULL));
+    put_sign(s, '[');
+    const char *end = at;
+    for (*count = 0; number_length(at);) {
+        end = at + strcspn(at, "\r\n");
+        put_sign(s, *count ? ',' : ' ');
+        put_sign(s, is_matrix ? '[' : ' ');
+        for (size_t i = 0; at < end && number_length(at); i++, *count += !is_matrix) {
+            put_sign(s, i ? ',' : ' ');
+            char number[60];
+            snprintf(number, sizeof number, "%.*s%s%s", (int)number_length(at) % 40, at,
+                     *factor ? "e" : "", factor);
+            put_text(s, number, number + strlen(number));
+            at += number_length(at) + strspn(at + number_length(at), " \t");
+        }
+        put_sign(s, is_matrix ? ']' : ' ');
+        *count += is_matrix;
+        if (at < end)
+            return NULL;
+        at = skip_space(at, NULL);
+    }
+    put_sign(s, ']');
+    return end;
+}
+
+/* Leaves a statement with a list that is no column. */
+static void leave(struct lists *s, const char *from)
+{
+    struct br_fields *f = s->fields;
+    const int length = (int)strcspn(from, "\n");
+    char text[80];
+    snprintf(text, sizeof text, "%.*s", length < 70 ? length : 70, from);
+    f->left = br_store_grow(&f->store, f->left, f->lefts, &s->left_room, sizeof *f->left);
+    if (f->left)
+        f->left[f->lefts++] = (struct br_left_line){
+            line_of(s, from), br_store_copy(&f->store, text), "no list of numbers"};
 }
 
 /* Takes a statement that gives a list, and nothing else; returns what follows, or NULL. */
 static const char *take_statement(struct lists *s, const char *from)
 {
-    const char *name = from, *end = NULL;
+    const char *name = from, *end = from;
     const char *value = skip_name(&name, &end);
     const size_t length = s->length;
-    if (!value && strchr("[({aAn", *from)) {
-        value = from;
-        name = end = NULL;
-    }
+    const bool named = value;
+    if (!named && !strchr("[({aAn", *from))
+        return NULL;
+    value = named ? value : from;
     size_t count = 0;
+    char heading[80] = "";
     put_sign(s, ',');
-    if (name) {
+    if (named) {
+        snprintf(heading, sizeof heading, "%.*s", (int)(end - name), name);
         put_text(s, name, end);
         put_sign(s, ':');
     }
     const size_t begin = s->length;
-    const char *at = value && (isalpha((unsigned char)*value) || strchr("[({", *value))
+    const bool is_shown = named && memchr(end, '=', 4) && memchr(end, '\n', (size_t)(value - end));
+    const char *at = is_shown && number_length(value) ? take_shown(s, value, &count)
+                     : isalpha((unsigned char)*value) || strchr("[({", *value)
                          ? take_value(s, value, true, 0, &count)
                          : NULL;
     at = at ? at + (*at == '\'') : NULL;
-    at = at ? at + strspn(at, " \t") : NULL;
-    char heading[80];
-    snprintf(heading, sizeof heading, "%.*s", (int)(end - name), name ? name : "");
+    at = at ? at + strspn(at, " \t\r") : NULL;
     const enum br_kind kind = br_kind_of(heading);
     const bool is_rate = kind == BR_KIND_RATE || kind == BR_KIND_FACTOR;
-    if (!at || !(!*at || strchr("\n;,", *at) || begins_comment(at)) ||
-        count < (size_t)(is_rate ? 2 : LEAST_VALUES)) {
-        s->length = length;
-        return at && count ? at : NULL;
+    const bool ends = at && (is_shown || !*at || strchr("\n;,", *at) || begins_comment(at));
+    if (ends && count >= (size_t)(is_rate ? 2 : LEAST_VALUES)) {
+        s->list[s->count++] = (struct list){named ? name : NULL, end, from, begin};
+        return at;
     }
-    s->list[s->count++] = (struct list){name, end, from, begin};
-    return at;
+    s->length = length;
+    if (named && memchr(from, '[', strcspn(from, "\n")))
+        leave(s, from);
+    return ends && count ? at : NULL;
 }
 
 /* The begin of the next statement: behind a line, or ";". */
 static const char *next_statement(const char *at)
 {
     at += begins_comment(at) ? strcspn(at, "\n") : strcspn(at, ";\n");
-    return skip_space(*at ? at + 1 : at, NULL);
+    return skip_prompt(skip_space(*at ? at + 1 : at, NULL));
 }
 
-/* Whether a statement changes what has a name: "e = ", "e[0] = ", "e /= ", "e.append(". */
+/* Whether a statement changes what has a name: "e = ", "e[0] = ", "e /= ", "e.append(", "push!(e".
+ */
 static bool changes(const char *at, const struct list *list)
 {
-    const size_t length = (size_t)(list->end - list->name);
+    static const char *const ways[] = {".append",  ".extend", ".insert", ".sort",
+                                       ".reverse", ".pop",    ".remove"};
+    const size_t length = (size_t)(list->end - list->name), word = strcspn(at, "(\n");
+    const bool by_call = word && strncmp(at + word - 1, "!(", 2) == 0;
+    at += by_call ? word + 1 : 0;
     if (strncmp(at, list->name, length) != 0 || isalnum((unsigned char)at[length]) ||
         at[length] == '_')
         return false;
     at += length;
-    if (strncmp(at, ".append", 7) == 0 || strncmp(at, ".extend", 7) == 0)
-        return true;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
+        if (by_call || strncmp(at, ways[i], strlen(ways[i])) == 0)
+            return true;
     if (*at && strchr("[(", *at))
         at += strcspn(at, "])\n") + 1;
     at += strspn(at, " \t");
     at += strspn(at, "+-*/.^");
-    return *at == '=' && at[1] != '=';
+    return (*at == '=' && at[1] != '=') || strncmp(at, "<-", 2) == 0;
 }
 
-static size_t line_of(const struct lists *s, const char *at)
+/* Whether a statement gives another list with the name of one. */
+static bool gives(const struct lists *s, const char *at, const struct list *list)
 {
-    size_t line = 1;
-    for (const char *c = s->text; c < at; c++)
-        line += *c == '\n';
-    return line;
+    for (const struct list *l = s->list; l < s->list + s->count; l++)
+        if (l->from == at && l->name && l->end - l->name == list->end - list->name &&
+            strncmp(l->name, list->name, (size_t)(l->end - l->name)) == 0)
+            return true;
+    return false;
 }
 
-/* Refuses a list that another line changes, and one that has another number of values. */
+/* Refuses a list that another line changes, or gives again. */
 static enum br_status check(const struct lists *s, const char *path, struct br_error *err)
 {
     for (const char *at = skip_space(s->text, NULL); *at; at = next_statement(at))
         for (size_t i = 0; i < s->count; i++) {
             const struct list *const list = &s->list[i];
-            if (list->name && at != list->from && changes(at, list))
+            if (list->name && at != list->from && (changes(at, list) || gives(s, at, list)))
                 return br_fail(err, BR_BAD_INPUT,
                                "%s:%zu: found a line that changes the list '%.*s' of line %zu: "
                                "keep the lists as they are in the end, and remove the rest",
@@ -350,11 +427,14 @@ static enum br_status check(const struct lists *s, const char *path, struct br_e
     return BR_OK;
 }
 
-/* Whether a line may be a row of a table. */
+/* Whether a line begins with a number, or a bar: it may be a row of a table. */
 static bool may_be_row(const char *at)
 {
-    at += strspn(at, "+-.");
-    return isdigit((unsigned char)*at) || *at == '|';
+    char word[60];
+    struct br_field_number number;
+    const size_t length = strcspn(at, " \t,;|&\n");
+    snprintf(word, sizeof word, "%.*s", length < sizeof word ? (int)length : 0, at);
+    return *at == '|' || br_field_read(word, '.', &number);
 }
 
 /* Whether lists are a table: several with names, or one of lists. */
@@ -369,39 +449,39 @@ static bool is_table(const struct lists *s)
     return *value == '{' || strpbrk(value + 1, "[{");
 }
 
-enum br_status br_lists_find(const char *text, const char *path, struct br_store *store,
+/* Takes all statements; whether they are a table. */
+static bool take_all(struct lists *s)
+{
+    for (const char *at = skip_prompt(skip_space(s->text, NULL)), *end; *at;) {
+        end = may_be_row(at) ? NULL : at;
+        const char *const behind = end ? take_statement(s, at) : NULL;
+        if (!end || s->broken || s->count == MOST_LISTS)
+            return false;
+        at = !behind          ? next_statement(at)
+             : *behind == ',' ? skip_space(behind + 1, NULL)
+                              : next_statement(behind);
+    }
+    return is_table(s);
+}
+
+enum br_status br_lists_find(const char *text, const char *path, struct br_fields *fields,
                              const char **json, struct br_error *err)
 {
+    struct lists *s = br_store_take(&fields->store, 1, sizeof *s);
     *json = NULL;
-    struct lists *s = NULL;
-    for (const char *at = skip_space(text, NULL), *end; *at; at = end) {
-        if (may_be_row(at))
-            return BR_OK;
-        end = next_statement(at);
-        if (!strchr("[({", at[strcspn(at, "[({\n")]))
-            continue;
-        if (!s) {
-            s = br_store_take(store, 1, sizeof *s);
-            char *const room = br_store_take(store, 4 * strlen(text) + 64, 1);
-            if (!s || !room)
-                return br_no_memory(err, "the table");
-            *s = (struct lists){.text = text, .json = room};
-        }
-        const char *const behind = take_statement(s, at);
-        if (s->broken || s->count == MOST_LISTS)
-            return BR_OK;
-        end = !behind          ? end
-              : *behind == ',' ? skip_space(behind + 1, NULL)
-                               : next_statement(behind);
+    if (!s)
+        return br_no_memory(err, "the table");
+    *s = (struct lists){.text = text, .fields = fields};
+    if (!take_all(s)) {
+        fields->lefts = 0;
+        return fields->store.failed ? br_no_memory(err, "the table") : BR_OK;
     }
-    if (!is_table(s))
-        return BR_OK;
-    if (check(s, path, err))
-        return err->status;
-    if (s->list[0].name) {
-        s->json[0] = '{';
-        put_sign(s, '}');
-    }
-    *json = s->json + !s->list[0].name;
-    return BR_OK;
+    const bool named = s->list[0].name;
+    put_sign(s, named ? '}' : ' ');
+    put_sign(s, '\0');
+    if (fields->store.failed)
+        return br_no_memory(err, "the table");
+    s->json[0] = named ? '{' : ' ';
+    *json = s->json;
+    return check(s, path, err);
 }

@@ -137,11 +137,11 @@ static bool is_unit_of(enum br_axis axis, const char *unit)
 }
 
 /* A name without its plural, "hs", "mesh_sizes", as lists have it, in place; false: there is none,
- * or it is a unit, "ms". */
+ * or it is a unit, "ms", or a quotient, "h/s". */
 static bool make_singular(char text[LONGEST], const char *name)
 {
     const size_t length = strlen(text);
-    const bool is_plural = length > 1 && text[length - 1] == 's' &&
+    const bool is_plural = length > 1 && text[length - 1] == 's' && !strchr(name, '/') &&
                            (!is_unit_of(BR_AXIS_TIME, text) || strcmp(name, "Ns") == 0);
     text[length - is_plural] = '\0';
     return is_plural;

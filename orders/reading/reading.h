@@ -57,9 +57,10 @@ bool br_json_is_table(const char *text);
 enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
                               struct br_error *err);
 
-/* Finds the lists of a program, or of its output, and makes JSON of them (json, out, in the store;
- * NULL: there are none). Fails with BR_BAD_INPUT where a line changes a list, or BR_NO_MEMORY. */
-enum br_status br_lists_find(const char *text, const char *path, struct br_store *store,
+/* Finds the lists of a program, or of its output, and makes JSON of them (json, out, in the store
+ * of fields; NULL: there are none). Lists that are no columns go to fields->left. Fails with
+ * BR_BAD_INPUT where a line changes a list, or BR_NO_MEMORY. */
+enum br_status br_lists_find(const char *text, const char *path, struct br_fields *fields,
                              const char **json, struct br_error *err);
 
 /* ---- numbers in fields ---- */
