@@ -142,7 +142,7 @@ static const struct {
      ":t:4: found 'P2 of all' between or beside the rows of lines 2 to 3"},
     {"A = [\n8 1.6\n16 .4\n];\n", "~|~|\n8|1.6|\n16|.4|\n1 title\n4 footer\n"},
     /* JSON */
-    {"[{\"h\":0.1,\"e\":1e-2},{\"h\":0.05,\"e\":NaN}]", "h|e|\n0.1|0.01|\n0.05||\n"},
+    {"[{\"h\":0.1,\"e\":1e-2},{\"h\":0.05,\"e\":NaN}]", "h|e|\n0.1|1e-2|\n0.05|NaN|\n"},
     {"{\"h\":0.1,\"e\":{\"l2\":1}}\n{\"h\":0.05,\"e\":{\"l2\":\"x\"}}\n",
      "h|e l2|\n0.1|1|\n0.05|x|\n"},
     {"{\"h\":[0.1,0.05],\"e\":[1,2],\"p\":3}", "h|e|\n0.1|1|\n0.05|2|\n0 beside the table\n"},
@@ -277,7 +277,7 @@ static const struct {
     {"{\"a\":[1,2],\"b\":[1]}", ":t: found 2 values, but 1 of b"},
     {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
-    {"{\"h\":1}\n{\"h\":.5}\n", ":t:2: found no valid JSON"},
+    {"{\"h\":1}\n{\"h\":}\n", ":t:2: found no valid JSON"},
     /* names of words above their columns */
     {"Cycle Mesh size    L2-Error\n    0    0.3025 1.24e-04    -\n    1    0.1513 9.65e-06 3.7\n",
      "Cycle|Mesh size|L2-Error|~|\n0|0.3025|1.24e-04|-|\n1|0.1513|9.65e-06|3.7|\n"},

@@ -299,30 +299,6 @@ static enum br_status take_fields(struct source *s)
 
 /* ---- the text ---- */
 
-/* Copies a text with null for NaN and Infinity, which Python writes. */
-static char *without_nan(const char *text)
-{
-    static const char *const words[] = {"NaN", "-Infinity", "Infinity"};
-    char *const copy = br_allocate(strlen(text) * 4 / 3 + 8, 1);
-    bool quoted = false;
-    for (char *to = copy; copy && *text;) {
-        size_t length = 0;
-        for (size_t i = 0; i < 3 && !quoted && !length; i++)
-            length = strncmp(text, words[i], strlen(words[i])) == 0 ? strlen(words[i]) : 0;
-        if (length) {
-            memcpy(to, "null", 4);
-            to += 4;
-            text += length;
-            continue;
-        }
-        quoted ^= *text == '"';
-        if (quoted && *text == '\\' && text[1])
-            *to++ = *text++;
-        *to++ = *text++;
-    }
-    return copy;
-}
-
 /* One value, or lines of them. */
 static json_t *load(const struct source *s, const char *text)
 {
@@ -349,23 +325,21 @@ enum br_status br_json_fields(const char *text, const char *path, struct br_fiel
                               struct br_error *err)
 {
     struct source s = {.path = path, .fields = fields, .err = err, .tables = json_object()};
-    char *copy = without_nan(text);
-    json_t *all = copy && s.tables ? load(&s, copy) : NULL;
     const char *lists = NULL;
     struct br_error other = {0};
-    if (copy && s.tables && !all && !br_lists_find(text, path, fields, &lists, &other) &&
-        lists) { /* of Python, or numpy */
-        err->status = BR_OK;
+    json_t *all = s.tables ? load(&s, text) : NULL;
+    if (s.tables && !all && !br_lists_find(text, path, fields, &lists, &other) && lists) {
+        err->status = BR_OK; /* Python's NaN, its dictionaries, numpy */
         all = load(&s, lists);
     }
-    enum br_status status = !copy || !s.tables ? br_no_memory(err, "the table") : err->status;
+    enum br_status status =
+        !s.tables || fields->store.failed ? br_no_memory(err, "the table") : err->status;
     if (!status)
         visit(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all, 0);
     if (!status)
         status = s.failed      ? br_no_memory(err, "the table")
                  : err->status ? err->status
                                : take_fields(&s);
-    free(copy);
     json_decref(all);
     json_decref(s.tables);
     return status;

@@ -9,7 +9,7 @@
 #include "orders/reading/reading.h"
 #include "orders/reading/roles.h"
 
-enum { DEEPEST = 8, MOST_LISTS = 64, LEAST_VALUES = 3 };
+enum { DEEPEST = 12, MOST_LISTS = 64, LEAST_VALUES = 3 };
 
 struct lists {
     const char *text;
@@ -19,10 +19,11 @@ struct lists {
     struct list {
         const char *name, *end; /* in the text; both NULL: it has no name */
         const char *from;       /* its statement */
-        size_t value;           /* where it is written */
+        bool nested;            /* it has lists, or is a record */
     } list[MOST_LISTS];
     size_t count;
-    bool broken; /* a bracket is never closed, or they are too deep */
+    bool broken;  /* a bracket is never closed, or they are too deep */
+    bool skipped; /* a statement with brackets and without a name */
 };
 
 static void put_sign(struct lists *s, char sign)
@@ -148,7 +149,9 @@ static const char *take_value(struct lists *s, const char *at, bool commas, int 
     *count = 0;
     if (*at == '"' || *at == '\'') {
         const char *const end = skip_quoted(at);
-        if (end)
+        for (const char *c = at; end && *at == '"' && c < end; c++)
+            put_sign(s, *c);
+        if (end && *at == '\'')
             put_text(s, at + 1, end - 1);
         return end;
     }
@@ -361,13 +364,17 @@ static const char *take_statement(struct lists *s, const char *from)
     const enum br_kind kind = br_kind_of(heading);
     const bool is_rate = kind == BR_KIND_RATE || kind == BR_KIND_FACTOR;
     const bool ends = at && (is_shown || !*at || strchr("\n;,", *at) || begins_comment(at));
-    if (ends && count >= (size_t)(is_rate ? 2 : LEAST_VALUES)) {
-        s->list[s->count++] = (struct list){named ? name : NULL, end, from, begin};
+    bool nested = *value == '{';
+    for (size_t i = begin + 1; i < s->length && !nested; i++)
+        nested = strchr("[{", s->json[i]) != NULL;
+    if (ends && count >= (size_t)(nested ? 1 : is_rate ? 2 : LEAST_VALUES)) {
+        s->list[s->count++] = (struct list){named ? name : NULL, end, from, nested};
         return at;
     }
     s->length = length;
     if (named && memchr(from, '[', strcspn(from, "\n")))
         leave(s, from);
+    s->skipped |= !named;
     return ends && count ? at : NULL;
 }
 
@@ -437,16 +444,16 @@ static bool may_be_row(const char *at)
     return *at == '|' || br_field_read(word, '.', &number);
 }
 
-/* Whether lists are a table: several with names, or one of lists. */
+/* Whether lists are a table: several with names, or records, or one of lists. */
 static bool is_table(const struct lists *s)
 {
-    bool named = true;
-    for (size_t i = 0; s && i < s->count; i++)
-        named &= s->list[i].name != NULL;
-    if (!s || s->count != 1)
-        return s && s->count > 1 && named;
-    const char *const value = s->json + s->list[0].value;
-    return *value == '{' || strpbrk(value + 1, "[{");
+    size_t named = 0, nested = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        named += s->list[i].name != NULL;
+        nested += s->list[i].nested;
+    }
+    return s->count > 1 ? named == s->count || (!named && nested == s->count && !s->skipped)
+                        : nested && (named || !s->skipped);
 }
 
 /* Takes all statements; whether they are a table. */
@@ -477,11 +484,11 @@ enum br_status br_lists_find(const char *text, const char *path, struct br_field
         return fields->store.failed ? br_no_memory(err, "the table") : BR_OK;
     }
     const bool named = s->list[0].name;
-    put_sign(s, named ? '}' : ' ');
+    put_sign(s, named ? '}' : s->count > 1 ? ']' : ' ');
     put_sign(s, '\0');
     if (fields->store.failed)
         return br_no_memory(err, "the table");
-    s->json[0] = named ? '{' : ' ';
+    s->json[0] = named ? '{' : s->count > 1 ? '[' : ' ';
     *json = s->json;
     return check(s, path, err);
 }
