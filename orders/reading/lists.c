@@ -59,10 +59,26 @@ static const char *skip_prompt(const char *at)
     return at + (length > 1 ? length + strspn(at + length, " ") : 0);
 }
 
+/* Skips a block of comments, or a text of several lines. */
+static const char *skip_block(const char *at)
+{
+    static const char *const blocks[][2] = {
+        {"\"\"\"", "\"\"\""}, {"'''", "'''"}, {"%{\n", "%}"}, {"/*", "*/"}};
+    for (size_t i = 0; i < 4; i++) {
+        const size_t length = strlen(blocks[i][0]);
+        const char *const end =
+            strncmp(at, blocks[i][0], length) == 0 ? strstr(at + length, blocks[i][1]) : NULL;
+        if (end)
+            return end + strlen(blocks[i][1]);
+    }
+    return at;
+}
+
 /* Skips blanks, comments and continued lines; *lines (out) may be NULL: the ends of lines. */
 static const char *skip_space(const char *at, size_t *lines)
 {
     for (;; at++) {
+        at = skip_block(at);
         const bool continued = strncmp(at, "...", 3) == 0;
         if (continued || begins_comment(at))
             at += strcspn(at, "\n");
@@ -342,8 +358,6 @@ static const char *take_statement(struct lists *s, const char *from)
     const char *value = skip_name(&name, &end);
     const size_t length = s->length;
     const bool named = value;
-    if (!named && !strchr("[({aAn", *from))
-        return NULL;
     value = named ? value : from;
     size_t count = 0;
     char heading[80] = "";
@@ -372,7 +386,9 @@ static const char *take_statement(struct lists *s, const char *from)
         return at;
     }
     s->length = length;
-    if (named && memchr(from, '[', strcspn(from, "\n")))
+    const size_t before = strcspn(from, "([\n"); /* "h, e = [..." */
+    if (named ? memchr(from, '[', strcspn(from, "\n")) != NULL
+              : from[before] == '[' && memchr(from, '=', before))
         leave(s, from);
     s->skipped |= !named;
     return ends && count ? at : NULL;
