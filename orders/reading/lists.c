@@ -440,7 +440,7 @@ static enum br_status check(const struct lists *s, const char *path, struct br_e
     for (const char *at = skip_space(s->text, NULL); *at; at = next_statement(at))
         for (size_t i = 0; i < s->count; i++) {
             const struct list *const list = &s->list[i];
-            if (list->name && at != list->from && (changes(at, list) || gives(s, at, list)))
+            if (list->name && at > list->from && (changes(at, list) || gives(s, at, list)))
                 return br_fail(err, BR_BAD_INPUT,
                                "%s:%zu: found a line that changes the list '%.*s' of line %zu: "
                                "keep the lists as they are in the end, and remove the rest",
