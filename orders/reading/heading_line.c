@@ -32,8 +32,8 @@ static size_t find_gaps(struct layout *l)
     return r->count == l->width || l->rows > 1 ? gaps : 0;
 }
 
-/* Splits a line in the way of the rows or another one, so that it has `wanted` tokens (l->token).
- */
+/* Splits a line in the way of the rows or another one, so that it has `wanted` tokens (l->token). A
+ * line with "&" is split there. */
 static bool split_names(struct layout *l, size_t line, size_t wanted)
 {
     const char *const text = l->line[line].text;
@@ -43,8 +43,8 @@ static bool split_names(struct layout *l, size_t line, size_t wanted)
         size_t count = br_line_split(text, by, '.', room, l->token);
         while (count > wanted && l->token[count - 1].content == BR_NOTHING)
             count--;
-        if (count == wanted)
-            return true;
+        if (count == wanted || (by == BR_BY_AMPERSANDS && strchr(text, '&')))
+            return count == wanted;
     }
     return false;
 }
