@@ -9,7 +9,13 @@
 #include "orders/reading/reading.h"
 #include "orders/reading/roles.h"
 
-enum { DEEPEST = 12, MOST_LISTS = 64, LEAST_VALUES = 3 };
+enum {
+    DEEPEST = 12,
+    MOST_LISTS = 64,
+    LEAST_VALUES = 3,
+    LONGEST_TEXT = 1 << 22, /* bytes */
+    LONGEST_BLOCK = 2000    /* of comments */
+};
 
 struct lists {
     const char *text;
@@ -22,7 +28,7 @@ struct lists {
         bool nested;            /* it has lists, or is a record */
     } list[MOST_LISTS];
     size_t count;
-    bool broken;  /* a bracket is never closed, or they are too deep */
+    bool broken;  /* a bracket is never closed, or there are too many */
     bool skipped; /* a statement with brackets and without a name */
 };
 
@@ -65,11 +71,13 @@ static const char *skip_block(const char *at)
     static const char *const blocks[][2] = {
         {"\"\"\"", "\"\"\""}, {"'''", "'''"}, {"%{\n", "%}"}, {"/*", "*/"}};
     for (size_t i = 0; i < 4; i++) {
-        const size_t length = strlen(blocks[i][0]);
-        const char *const end =
-            strncmp(at, blocks[i][0], length) == 0 ? strstr(at + length, blocks[i][1]) : NULL;
+        const size_t length = strlen(blocks[i][0]), behind = strlen(blocks[i][1]);
+        if (strncmp(at, blocks[i][0], length) != 0)
+            continue;
+        const size_t rest = strnlen(at + length, LONGEST_BLOCK);
+        const char *const end = memmem(at + length, rest, blocks[i][1], behind);
         if (end)
-            return end + strlen(blocks[i][1]);
+            return end + behind;
     }
     return at;
 }
@@ -307,9 +315,10 @@ static size_t number_length(const char *at)
  * them may be a factor of all, "1.0e-03 *". */
 static const char *take_shown(struct lists *s, const char *at, size_t *count)
 {
-    char factor[8] = "";
+    char first[20], factor[8] = "";
     int length = 0;
-    if (sscanf(at, "1.0e%7[-+0-9] *%n", factor, &length) == 1 && length)
+    snprintf(first, sizeof first, "%.19s", at);
+    if (sscanf(first, "1.0e%7[-+0-9] *%n", factor, &length) == 1 && length)
         at = skip_space(at + length, NULL);
     const char *const second = at + number_length(at) + strspn(at + number_length(at), " ");
     const bool is_matrix =
@@ -323,10 +332,11 @@ static const char *take_shown(struct lists *s, const char *at, size_t *count)
         for (size_t i = 0; at < end && number_length(at); i++, *count += !is_matrix) {
             put_sign(s, i ? ',' : ' ');
             char number[60];
-            snprintf(number, sizeof number, "%.*s%s%s", (int)number_length(at) % 40, at,
-                     *factor ? "e" : "", factor);
+            const size_t size = number_length(at);
+            snprintf(number, sizeof number, "%.*s%s%s", size < 40 ? (int)size : 0, at,
+                     length ? "e" : "", length ? factor : "");
             put_text(s, number, number + strlen(number));
-            at += number_length(at) + strspn(at + number_length(at), " \t");
+            at += size + strspn(at + size, " \t");
         }
         put_sign(s, is_matrix ? ']' : ' ');
         *count += is_matrix;
@@ -342,9 +352,10 @@ static const char *take_shown(struct lists *s, const char *at, size_t *count)
 static void leave(struct lists *s, const char *from)
 {
     struct br_fields *f = s->fields;
-    const int length = (int)strcspn(from, "\n");
+    const size_t length = strcspn(from, "\n");
     char text[80];
-    snprintf(text, sizeof text, "%.*s", length < 70 ? length : 70, from);
+    snprintf(text, sizeof text, "%.*s", length < 70 ? (int)length : 70, from);
+    s->broken |= f->lefts == MOST_LISTS;
     f->left = br_store_grow(&f->store, f->left, f->lefts, &s->left_room, sizeof *f->left);
     if (f->left)
         f->left[f->lefts++] = (struct br_left_line){
@@ -368,8 +379,9 @@ static const char *take_statement(struct lists *s, const char *from)
         put_sign(s, ':');
     }
     const size_t begin = s->length;
-    const bool is_shown = named && memchr(end, '=', 4) && memchr(end, '\n', (size_t)(value - end));
-    const char *at = is_shown && number_length(value) ? take_shown(s, value, &count)
+    const bool is_shown = named && end[strspn(end, " ")] == '=' &&
+                          memchr(end, '\n', (size_t)(value - end)) && number_length(value);
+    const char *at = is_shown ? take_shown(s, value, &count)
                      : isalpha((unsigned char)*value) || strchr("[({", *value)
                          ? take_value(s, value, true, 0, &count)
                          : NULL;
@@ -495,7 +507,7 @@ enum br_status br_lists_find(const char *text, const char *path, struct br_field
     if (!s)
         return br_no_memory(err, "the table");
     *s = (struct lists){.text = text, .fields = fields};
-    if (!take_all(s)) {
+    if (strnlen(text, LONGEST_TEXT) == LONGEST_TEXT || !take_all(s)) {
         fields->lefts = 0;
         return fields->store.failed ? br_no_memory(err, "the table") : BR_OK;
     }
