@@ -541,4 +541,6 @@ TEST(test_without_memory)
 {
     br_test_without_memory(whole, "a b\nn e rate e rate\n8 1 - 1 -\n16 .2 2.0 .2 2.0\n", 8);
     br_test_without_memory(whole, "[{\"h\":0.1,\"e\":1},{\"h\":0.05,\"e\":2}]", 8);
+    br_test_without_memory(whole, "h = [3,2,1]\ne = [3,2,1]\nf = 1./[3,2,1]\n", 8);
+    br_test_without_memory(whole, "<tr><td rowspan=2>1<td>2<tr><td>3<tr><td>4<td>5", 8);
 }

@@ -34,9 +34,11 @@ struct lists {
 
 static void put_sign(struct lists *s, char sign)
 {
-    s->json = br_store_grow(&s->fields->store, s->json, s->length, &s->room, 1);
-    if (s->json)
-        s->json[s->length++] = sign;
+    char *const json = br_store_grow(&s->fields->store, s->json, s->length, &s->room, 1);
+    if (!json)
+        return;
+    json[s->length++] = sign;
+    s->json = json;
 }
 
 /* A text as a string of JSON. */
