@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of HTML: each row becomes one of LaTeX, with "&" and "\\", on the line where it begins;
- * what stands outside of tables becomes comments. */
+ * what stands outside of tables becomes comments, but no row of Markdown. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,11 +46,10 @@ static void put(struct page *p, const char *text)
 static const char *put_entity(struct page *p, const char *at)
 {
     static const char *const signs[][2] = {
-        {"nbsp", " "},        {"minus", "-"},       {"ndash", "-"},     {"mdash", "-"},
-        {"lt", "<"},          {"gt", ">"},          {"amp", "+"},       {"quot", "'"},
-        {"times", "\\times"}, {"middot", "\\cdot"}, {"sdot", "\\cdot"}, {"plusmn", "\\pm"},
-        {"infin", "inf"},     {"hellip", "..."},    {"thinsp", ""},     {"Delta", "\u0394"}};
-    char name[12], utf8[5] = "";
+        {"nbsp", " "},        {"#160", " "},      {"minus", "-"},     {"#8722", "-"},
+        {"ndash", "-"},       {"mdash", "-"},     {"lt", "<"},        {"gt", ">"},
+        {"times", "\\times"}, {"sdot", "\\cdot"}, {"plusmn", "\\pm"}, {"amp", "+"}};
+    char name[12];
     const size_t length = strcspn(at + 1, "; <&\n");
     if (at[1 + length] != ';' || length >= sizeof name) {
         put(p, "+");
@@ -62,16 +61,7 @@ static const char *put_entity(struct page *p, const char *at)
             put(p, signs[i][1]);
             return at + length + 2;
         }
-    const bool hex = *name == '#' && (name[1] == 'x' || name[1] == 'X');
-    const unsigned long code = *name == '#' ? strtoul(name + 1 + hex, NULL, hex ? 16 : 10) : 0;
-    if (code >= 0x800 && code < 0x10000)
-        snprintf(utf8, sizeof utf8, "%c%c%c", (char)(0xe0 | code >> 12),
-                 (char)(0x80 | (code >> 6 & 0x3f)), (char)(0x80 | (code & 0x3f)));
-    else if (code >= 0x80 && code < 0x800)
-        snprintf(utf8, sizeof utf8, "%c%c", (char)(0xc0 | code >> 6), (char)(0x80 | (code & 0x3f)));
-    else if (code > ' ' && code < 0x7f && !strchr("&\"\\", (int)code))
-        snprintf(utf8, sizeof utf8, "%c", (char)code);
-    put(p, *name == '#' ? utf8 : name);
+    put(p, name);
     return at + length + 2;
 }
 
@@ -202,7 +192,7 @@ static void take_character(struct page *p, char c)
     const bool shown = p->in_cell || (!p->in_table && (p->in_text || !strchr(" \t\r", c)));
     if (!shown)
         return;
-    if (!p->in_cell && !p->in_text)
+    if (!p->in_cell && !p->in_text && c != '|') /* of Markdown */
         put(p, "# ");
     p->in_text = !p->in_cell;
     put(p, c == '"' ? "'" : c == '#' ? "no" : text);
