@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lines of a table, each split as the table is: for layout.c, line_kinds.c and heading_line.c. */
+/* The lines of a table, each split as the table is: for layout.c, line_kinds.c and heading_line.c.
+ */
 #ifndef BR_ORDERS_READING_LAYOUT_H
 #define BR_ORDERS_READING_LAYOUT_H
 
