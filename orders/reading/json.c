@@ -24,7 +24,6 @@ struct source {
     json_t *tables;                /* names to objects, of names to arrays of values; owned */
     json_t *names, *index, *types; /* of columns, rows, and columns, as pandas has them; borrowed */
     bool has_records;              /* they may lack columns */
-    size_t room;                   /* of fields->left */
     bool failed;                   /* no memory */
 };
 
@@ -73,12 +72,11 @@ static void leave(struct source *s, const char *name, const json_t *value)
     char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT);
     const size_t size = strlen(name) + (text ? strlen(text) : 0) + 3;
     char *line = br_store_take(&f->store, size, 1);
-    f->left = br_store_grow(&f->store, f->left, f->lefts, &s->room, sizeof *f->left);
-    if (text && line && f->left) {
+    if (text && line) {
         snprintf(line, size, "%s: %s", name, text);
-        f->left[f->lefts++] = (struct br_left_line){0, line, "beside the table"};
+        br_fields_leave(f, 0, line, "beside the table");
     }
-    s->failed |= !text || !line || !f->left;
+    s->failed |= !text || f->store.failed;
     free(text);
 }
 

@@ -398,6 +398,16 @@ enum br_status br_fields_read(const char *text, const char *path,
                : lay_out(l);
 }
 
+void br_fields_leave(struct br_fields *fields, size_t line, const char *text, const char *why)
+{
+    struct br_left_line *const left = br_store_grow(&fields->store, fields->left, fields->lefts,
+                                                    &fields->left_room, sizeof *left);
+    if (!left)
+        return;
+    left[fields->lefts++] = (struct br_left_line){line, text, why};
+    fields->left = left;
+}
+
 void br_fields_clear(struct br_fields *fields)
 {
     br_store_clear(&fields->store);

@@ -21,7 +21,7 @@ struct lists {
     const char *text;
     struct br_fields *fields;
     char *json; /* what is written */
-    size_t length, room, left_room;
+    size_t length, room;
     struct list {
         const char *name, *end; /* in the text; both NULL: it has no name */
         const char *from;       /* its statement */
@@ -358,10 +358,7 @@ static void leave(struct lists *s, const char *from)
     char text[80];
     snprintf(text, sizeof text, "%.*s", length < 70 ? (int)length : 70, from);
     s->broken |= f->lefts == MOST_LISTS;
-    f->left = br_store_grow(&f->store, f->left, f->lefts, &s->left_room, sizeof *f->left);
-    if (f->left)
-        f->left[f->lefts++] = (struct br_left_line){
-            line_of(s, from), br_store_copy(&f->store, text), "no list of numbers"};
+    br_fields_leave(f, line_of(s, from), br_store_copy(&f->store, text), "no list of numbers");
 }
 
 /* Takes a statement that gives a list, and nothing else; returns what follows, or NULL. */

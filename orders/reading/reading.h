@@ -29,7 +29,7 @@ struct br_fields {
     bool *is_words;            /* columns: the types of the source say that it has no numbers */
     char mark;                 /* of decimals: '.' or ',' */
     struct br_left_line *left; /* lefts, from top to bottom */
-    size_t lefts;
+    size_t lefts, left_room;
     struct br_store store; /* of all that is pointed to */
 };
 
@@ -48,6 +48,9 @@ enum br_status br_fields_read(const char *text, const char *path,
                               const struct br_observer *observer, struct br_fields *fields,
                               struct br_error *err);
 void br_fields_clear(struct br_fields *fields); /* accepts zeros */
+
+/* Names a text that is in no row (in the store of fields, which may fail). */
+void br_fields_leave(struct br_fields *fields, size_t line, const char *text, const char *why);
 
 /* Whether a text is meant to be JSON (json.c, for br_fields_read). */
 bool br_json_is_table(const char *text);
