@@ -43,7 +43,7 @@ static bool split_names(struct layout *l, size_t line, size_t wanted)
         size_t count = br_line_split(text, by, '.', room, l->token);
         while (count > wanted && l->token[count - 1].content == BR_NOTHING)
             count--;
-        if (count == wanted || (by == BR_BY_AMPERSANDS && strchr(text, '&')))
+        if (count == wanted || (l->by == BR_BY_AMPERSANDS && strchr(text, '&')))
             return count == wanted;
     }
     return false;
@@ -57,10 +57,15 @@ static size_t columns_of(char **text)
     char *const at = strstr(*text, "\\multicolumn{");
     if (!at || sscanf(at, "\\multicolumn{%4zu}{%*[^}]}{%n", &columns, &from) < 1 || !from)
         return 1;
-    char *const close = strrchr(at + from, '}');
+    int depth = 1; /* of braces */
+    char *close = at + from;
+    for (; *close; close++) {
+        depth += (*close == '{') - (*close == '}');
+        if (!depth)
+            break;
+    }
+    *close = '\0';
     *text = at + from;
-    if (close)
-        *close = '\0';
     return columns;
 }
 
@@ -254,14 +259,14 @@ enum br_status br_layout_find_heading(struct layout *l)
     for (size_t i = l->first; i-- > 0;)
         if (l->line[i].kind == BR_LINE_COMMENT && take_names(l, i))
             return BR_OK;
-    if (above < l->lines && take_short_heading(l, above))
-        return BR_OK;
     if (has_names_in_row(l)) {
         l->row[first].is_row = false;
         l->first = br_layout_next_text(l, first, 1);
         take_names(l, first);
         return BR_OK;
     }
+    if (above < l->lines && take_short_heading(l, above))
+        return BR_OK;
     if (above == l->lines || is_title(l, above))
         return BR_OK;
     if (l->row[above].numbers)
