@@ -142,7 +142,7 @@ static const struct {
      ":t:4: found 'P2 of all' between or beside the rows of lines 2 to 3"},
     {"A = [\n8 1.6\n16 .4\n];\n", "~|~|\n8|1.6|\n16|.4|\n1 title\n4 footer\n"},
     /* JSON */
-    {"[{\"h\":0.1,\"e\":1e-2},{\"h\":0.05,\"e\":NaN}]", "h|e|\n0.1|0.01|\n0.05||\n"},
+    {"[{\"h\":0.1,\"e\":1e-2},{\"h\":0.05,\"e\":NaN}]", "h|e|\n0.1|1e-2|\n0.05|NaN|\n"},
     {"{\"h\":0.1,\"e\":{\"l2\":1}}\n{\"h\":0.05,\"e\":{\"l2\":\"x\"}}\n",
      "h|e l2|\n0.1|1|\n0.05|x|\n"},
     {"{\"h\":[0.1,0.05],\"e\":[1,2],\"p\":3}", "h|e|\n0.1|1|\n0.05|2|\n0 beside the table\n"},
@@ -277,7 +277,15 @@ static const struct {
     {"{\"a\":[1,2],\"b\":[1]}", ":t: found 2 values, but 1 of b"},
     {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
-    {"{\"h\":1}\n{\"h\":.5}\n", ":t:2: found no valid JSON"},
+    {"{\"h\":1}\n{\"h\":}\n", ":t:2: found no valid JSON"},
+    {"{\"h\":1}\n{\"h\":NaN}\n{\"h\":}\n", ":t:2: found no valid JSON"},
+    {"h = [1,2,3]\ne = [4 5 6];\n", "h|e|\n1|4|\n2|5|\n3|6|\n"},
+    {"h = [1,2,3]\ne = [4,5,6]\ne[0] /= 2\n",
+     ":t:3: found a line that changes the list 'e' of line 2"},
+    {"h: [1,2,3], e: [4,5,6]\nh: [1,2,3], e: [7,8,9]\n",
+     ":t:2: found a line that changes the list 'h' of line 1"},
+    {"h = [1,2,3]\ne = [4,5,6,7]\n", ":t: found 4 values, but 3 of h"},
+    {"<tr><th>h<th>e<tr><td rowspan=2>1<td>4<tr><td>5<tr><td>6<td>7", "h|e|\n1|4|\n1|5|\n6|7|\n"},
     /* names of words above their columns */
     {"Cycle Mesh size    L2-Error\n    0    0.3025 1.24e-04    -\n    1    0.1513 9.65e-06 3.7\n",
      "Cycle|Mesh size|L2-Error|~|\n0|0.3025|1.24e-04|-|\n1|0.1513|9.65e-06|3.7|\n"},
@@ -507,6 +515,21 @@ TEST(test_large_tables)
     refuse(table_of(2, 40000), "t:1: found more than 1000 columns");
 }
 
+TEST(test_many_left_aside)
+{
+    enum { SCALED = 40 };
+    char text[2000] = "a = [1,2,3]\nb = [[1,2],[3,4],[5,6]]\n";
+    struct br_fields fields;
+    struct br_error err = {0};
+    for (int i = 0; i < SCALED; i++)
+        sprintf(text + strlen(text), "x%d = 2*[1,2,3]\n", i);
+    MUST(br_fields_read(text, "t", NULL, &fields, &err));
+    assert_int_equal(fields.lefts, SCALED + 1);
+    assert_string_equal(fields.left[SCALED - 1].text, "x39 = 2*[1,2,3]");
+    assert_string_equal(fields.left[SCALED].text, ": {\"a\":[\"1\",\"2\",\"3\"]}");
+    br_fields_clear(&fields);
+}
+
 static bool always(__attribute__((unused)) void *self)
 {
     return true;
@@ -533,4 +556,6 @@ TEST(test_without_memory)
 {
     br_test_without_memory(whole, "a b\nn e rate e rate\n8 1 - 1 -\n16 .2 2.0 .2 2.0\n", 8);
     br_test_without_memory(whole, "[{\"h\":0.1,\"e\":1},{\"h\":0.05,\"e\":2}]", 8);
+    br_test_without_memory(whole, "h = [3,2,1]\ne = [3,2,1]\nf = 1./[3,2,1]\n", 8);
+    br_test_without_memory(whole, "<tr><td rowspan=2>1<td>2<tr><td>3<tr><td>4<td>5", 8);
 }

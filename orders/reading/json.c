@@ -8,6 +8,7 @@
 
 #include "base/words.h"
 #include "orders/reading/reading.h"
+#include "orders/reading/roles.h"
 
 enum { DEEPEST = 12, LONGEST = 400 };
 
@@ -23,7 +24,6 @@ struct source {
     json_t *tables;                /* names to objects, of names to arrays of values; owned */
     json_t *names, *index, *types; /* of columns, rows, and columns, as pandas has them; borrowed */
     bool has_records;              /* they may lack columns */
-    size_t room;                   /* of fields->left */
     bool failed;                   /* no memory */
 };
 
@@ -72,12 +72,11 @@ static void leave(struct source *s, const char *name, const json_t *value)
     char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT);
     const size_t size = strlen(name) + (text ? strlen(text) : 0) + 3;
     char *line = br_store_take(&f->store, size, 1);
-    f->left = br_store_grow(&f->store, f->left, f->lefts, &s->room, sizeof *f->left);
-    if (text && line && f->left) {
+    if (text && line) {
         snprintf(line, size, "%s: %s", name, text);
-        f->left[f->lefts++] = (struct br_left_line){0, line, "beside the table"};
+        br_fields_leave(f, 0, line, "beside the table");
     }
-    s->failed |= !text || !line || !f->left;
+    s->failed |= !text || f->store.failed;
     free(text);
 }
 
@@ -144,8 +143,14 @@ static bool has_names(const json_t *value)
     size_t i;
     json_t *name, *first = json_array_get(value, 0);
     bool names = json_array_size(first) > 0;
-    json_array_foreach(first, i, name) names &= json_is_string(name);
-    return names;
+    bool numbers = true;
+    struct br_field_number number;
+    json_array_foreach(first, i, name)
+    {
+        names &= json_is_string(name);
+        numbers &= names && br_field_read(json_string_value(name), '.', &number);
+    }
+    return names && !numbers;
 }
 
 static void visit(struct source *s, json_t *value, size_t depth)
@@ -225,13 +230,18 @@ static json_t *choose(struct source *s)
                                            : "an empty table",
                "");
     else if (!s->has_records)
-        json_object_foreach (chosen, of, column)
+        json_object_foreach (chosen, of, column) {
+            const enum br_kind kind = br_kind_of(of);
+            if ((kind == BR_KIND_RATE || kind == BR_KIND_FACTOR) && /* from row to row */
+                json_array_size(column) + 1 == s->fields->rows)
+                s->failed |= json_array_insert_new(column, 0, json_null()) != 0;
             if (json_array_size(column) != s->fields->rows) {
                 char why[60];
                 snprintf(why, sizeof why, "%zu values, but %zu of ", s->fields->rows,
                          json_array_size(column));
                 refuse(s, why, of);
             }
+        }
     return s->err->status ? NULL : chosen;
 }
 
@@ -287,30 +297,6 @@ static enum br_status take_fields(struct source *s)
 
 /* ---- the text ---- */
 
-/* Copies a text with null for NaN and Infinity, which Python writes. */
-static char *without_nan(const char *text)
-{
-    static const char *const words[] = {"NaN", "-Infinity", "Infinity"};
-    char *const copy = br_allocate(strlen(text) * 4 / 3 + 8, 1);
-    bool quoted = false;
-    for (char *to = copy; copy && *text;) {
-        size_t length = 0;
-        for (size_t i = 0; i < 3 && !quoted && !length; i++)
-            length = strncmp(text, words[i], strlen(words[i])) == 0 ? strlen(words[i]) : 0;
-        if (length) {
-            memcpy(to, "null", 4);
-            to += 4;
-            text += length;
-            continue;
-        }
-        quoted ^= *text == '"';
-        if (quoted && *text == '\\' && text[1])
-            *to++ = *text++;
-        *to++ = *text++;
-    }
-    return copy;
-}
-
 /* One value, or lines of them. */
 static json_t *load(const struct source *s, const char *text)
 {
@@ -337,16 +323,21 @@ enum br_status br_json_fields(const char *text, const char *path, struct br_fiel
                               struct br_error *err)
 {
     struct source s = {.path = path, .fields = fields, .err = err, .tables = json_object()};
-    char *copy = without_nan(text);
-    json_t *all = copy && s.tables ? load(&s, copy) : NULL;
-    enum br_status status = !copy || !s.tables ? br_no_memory(err, "the table") : err->status;
+    const char *lists = NULL;
+    struct br_error other = {0};
+    json_t *all = s.tables ? load(&s, text) : NULL;
+    if (s.tables && !all && !br_lists_find(text, path, fields, &lists, &other) && lists) {
+        err->status = BR_OK; /* Python's NaN, its dictionaries, numpy */
+        all = load(&s, lists);
+    }
+    enum br_status status =
+        !s.tables || fields->store.failed ? br_no_memory(err, "the table") : err->status;
     if (!status)
         visit(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all, 0);
     if (!status)
         status = s.failed      ? br_no_memory(err, "the table")
                  : err->status ? err->status
                                : take_fields(&s);
-    free(copy);
     json_decref(all);
     json_decref(s.tables);
     return status;

@@ -381,17 +381,31 @@ enum br_status br_fields_read(const char *text, const char *path,
 {
     *fields = (struct br_fields){.mark = '.'};
     err->status = BR_OK;
-    if (br_json_is_table(text))
-        return br_json_fields(text, path, fields, err);
+    const char *lists = NULL;
+    if (!br_json_is_table(text) && br_lists_find(text, path, fields, &lists, err))
+        return err->status;
+    if (lists || br_json_is_table(text))
+        return br_json_fields(lists ? lists : text, path, fields, err);
     struct layout *l = br_store_take(&fields->store, 1, sizeof *l);
     char *copy = br_store_copy(&fields->store, text);
     if (!l || !copy)
         return br_no_memory(err, "the table");
     *l = (struct layout){.path = path, .observer = observer, .err = err, .fields = fields};
-    return br_lines_cut(copy, path, &fields->store, &l->line, &l->lines, err) ||
+    return br_markup_flatten(&copy, &fields->store, err) ||
+                   br_lines_cut(copy, path, &fields->store, &l->line, &l->lines, err) ||
                    br_log_fold(l->line, l->lines, &fields->store, err)
                ? err->status
                : lay_out(l);
+}
+
+void br_fields_leave(struct br_fields *fields, size_t line, const char *text, const char *why)
+{
+    struct br_left_line *const left = br_store_grow(&fields->store, fields->left, fields->lefts,
+                                                    &fields->left_room, sizeof *left);
+    if (!left)
+        return;
+    left[fields->lefts++] = (struct br_left_line){line, text, why};
+    fields->left = left;
 }
 
 void br_fields_clear(struct br_fields *fields)

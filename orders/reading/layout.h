@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lines of a table, each split as the table is: for layout.c and line_kinds.c. */
+/* The lines of a table, each split as the table is: for layout.c, line_kinds.c and heading_line.c.
+ */
 #ifndef BR_ORDERS_READING_LAYOUT_H
 #define BR_ORDERS_READING_LAYOUT_H
 
@@ -47,6 +48,16 @@ enum br_status br_layout_count_row(struct layout *l, size_t line);
 /* Says what each line is (line_kinds.c): finds the rows and the heading. Refuses what is no row
  * between rows, or has numbers that are no row: it may be a second table. */
 enum br_status br_layout_find_kinds(struct layout *l);
+
+/* Finds the names of the columns (heading_line.c). Refuses a line above the rows that has another
+ * number of names. */
+enum br_status br_layout_find_heading(struct layout *l);
+
+/* The next line of text above (step -1) or below one; l->lines: there is none. */
+size_t br_layout_next_text(const struct layout *l, size_t line, int step);
+
+/* Whether a line has numbers only, fewer than a row. */
+bool br_layout_is_short(const struct layout *l, size_t line);
 
 /* Whether a line is a row of the fields; it may be short. */
 bool br_layout_is_row(const struct layout *l, size_t line);

@@ -28,6 +28,10 @@ enum { BR_BOX_BAR = '\x01' };
 enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
                             struct br_line **line, size_t *count, struct br_error *err);
 
+/* Makes lines of the tables of HTML in a text (in, out: then in the store), if there are any: rows
+ * as LaTeX has them, and comments. Fails with BR_NO_MEMORY. */
+enum br_status br_markup_flatten(char **text, struct br_store *store, struct br_error *err);
+
 /* Joins the lines of each run of a log to one, where its size and its errors have lines of their
  * own (log.c). Fails with BR_NO_MEMORY. */
 enum br_status br_log_fold(struct br_line *line, size_t lines, struct br_store *store,

@@ -136,7 +136,7 @@ static size_t last_word(const char *name, char last[LONGEST])
 static void without_fill(const char *name, char text[LONGEST])
 {
     static const char fill[] = " num number no of max min avg mean average total count the in nb "
-                               "nr global mesh grid ";
+                               "nr global mesh grid values list array ";
     char word[LONGEST];
     size_t length = 0;
     while (next_word(&name, word))
@@ -145,6 +145,26 @@ static void without_fill(const char *name, char text[LONGEST])
             length += strlen(word);
         }
     text[length] = '\0';
+}
+
+static bool is_unit_of(enum br_axis axis, const char *unit)
+{
+    return unit &&
+           lists(axis == BR_AXIS_SPACE ? " m dm mm cm km um nm pm ft in deg \xc2\xb5m \xce\xbcm "
+                                         "metres meters "
+                                       : " s ms us ns \xc2\xb5s \xce\xbcs ps min ",
+                 unit);
+}
+
+/* A name without its plural, "hs", "mesh_sizes", as lists have it, in place; false: there is none,
+ * or it is a unit, "ms", or a quotient, "h/s". */
+static bool make_singular(char text[LONGEST], const char *name)
+{
+    const size_t length = strlen(text);
+    const bool is_plural = length > 1 && text[length - 1] == 's' && !strchr(name, '/') &&
+                           (!is_unit_of(BR_AXIS_TIME, text) || strcmp(name, "Ns") == 0);
+    text[length - is_plural] = '\0';
+    return is_plural;
 }
 
 /* A name with its letter, "mesh width h", without it; false: there is none, or another one. */
@@ -228,15 +248,6 @@ static const char *formula_of(const char *name)
     return NULL;
 }
 
-static bool is_unit_of(enum br_axis axis, const char *unit)
-{
-    return unit &&
-           lists(axis == BR_AXIS_SPACE ? " m dm mm cm km um nm pm ft in deg \xc2\xb5m \xce\xbcm "
-                                         "metres meters "
-                                       : " s ms us ns \xc2\xb5s \xce\xbcs ps min ",
-                 unit);
-}
-
 bool br_is_unit(const char *text)
 {
     return is_unit_of(BR_AXIS_SPACE, text) || is_unit_of(BR_AXIS_TIME, text) ||
@@ -315,8 +326,10 @@ double br_name_odds(const char *name, const char *unit, const struct br_resoluti
     if (!is) {
         best = listed_odds(whole, column->name, &most);
         best = most > 0 ? best : listed_odds(bare, column->name, &most);
-        if (!(most > 0) && without_letter(bare, name, "h"))
+        if (!(most > 0) && (without_letter(bare, name, "h") || make_singular(bare, name)))
             best = listed_odds(bare, column->name, &most);
+        if (!(most > 0) && make_singular(whole, name))
+            best = listed_odds(whole, column->name, &most);
         if (!(most > 0) && has_spacing(name))
             is = "h";
         if (!(most > 0) && !is && last_word(name, bare) > 1 && strlen(bare) >= LEAST &&

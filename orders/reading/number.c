@@ -133,7 +133,7 @@ static const char *take_number(struct reader *r, const char *at, double *value)
     const char *const first = at;
     at = take_whole(r, at, &to);
     const bool grouped = strspn(first, "0123456789") < (size_t)(at - first);
-    const bool has_mark = *at == r->mark && !grouped;
+    const bool has_mark = *at == r->mark && (!grouped || r->mark == '.'); /* "1,000.5" */
     r->decimals = 0;
     if (has_mark) {
         *to++ = '.';

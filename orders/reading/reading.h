@@ -29,7 +29,7 @@ struct br_fields {
     bool *is_words;            /* columns: the types of the source say that it has no numbers */
     char mark;                 /* of decimals: '.' or ',' */
     struct br_left_line *left; /* lefts, from top to bottom */
-    size_t lefts;
+    size_t lefts, left_room;
     struct br_store store; /* of all that is pointed to */
 };
 
@@ -49,6 +49,9 @@ enum br_status br_fields_read(const char *text, const char *path,
                               struct br_error *err);
 void br_fields_clear(struct br_fields *fields); /* accepts zeros */
 
+/* Names a text that is in no row (in the store of fields, which may fail). */
+void br_fields_leave(struct br_fields *fields, size_t line, const char *text, const char *why);
+
 /* Whether a text is meant to be JSON (json.c, for br_fields_read). */
 bool br_json_is_table(const char *text);
 
@@ -56,6 +59,12 @@ bool br_json_is_table(const char *text);
  * around one of them. Fails as br_fields_read does. */
 enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
                               struct br_error *err);
+
+/* Finds the lists of a program, or of its output, and makes JSON of them (json, out, in the store
+ * of fields; NULL: there are none). Lists that are no columns go to fields->left. Fails with
+ * BR_BAD_INPUT where a line changes a list, or BR_NO_MEMORY. */
+enum br_status br_lists_find(const char *text, const char *path, struct br_fields *fields,
+                             const char **json, struct br_error *err);
 
 /* ---- numbers in fields ---- */
 

@@ -863,7 +863,7 @@ int main(int arguments, char **argument)
     printf("# left aside without a word: %zu\n", total.unnamed);
     print_heading("copies of the right ones");
     const size_t read = total.of[RIGHT] + total.of[ASSUMED];
-    const bool good = total.of[WRONG] == 0 && read * 100 >= LEAST_RIGHT * total.all;
+    const bool good = !total.of[WRONG] && !total.unnamed && read * 100 >= LEAST_RIGHT * total.all;
     bool kept = true;
     for (size_t i = 0; i < COPIES; i++) {
         const struct tally *t = &spoilt[i];
