@@ -2,6 +2,7 @@
 /* The options of orders and check, and those of all commands, a row each. */
 #include "cli/command.h"
 
+#include "orders/orders.h"
 #include "tables/document.h"
 
 BR_WORDS(format, br_document_formats)
@@ -71,7 +72,7 @@ static const struct br_option rows[] = {
          "Of a run, cpu and wall are measured, and so is memory. Other names are those of columns, "
          "or of numbers that 'read:' of a study file names."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
-     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
+     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, BR_MOST_DIMENSIONS),
      .commands = BR_FOR_ORDERS,
      .more =
          "If it is not given, the growth of the numbers and the rates of a table decide it, or 2 "

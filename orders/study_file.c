@@ -93,16 +93,16 @@ static enum br_status take_formal(const struct entry *e)
                          e->text);
 }
 
-static enum br_status take_dimension(const struct entry *e)
-{
-    e->request->assumed_dimension = false;
-    return take_number(e);
-}
-
 static enum br_status take_in_range(const struct entry *e)
 {
     double *value = (double *)((char *)e->request + e->of->at);
     return br_read_in_range(e->text, &e->of->range, value, e->err);
+}
+
+static enum br_status take_dimension(const struct entry *e)
+{
+    e->request->assumed_dimension = false;
+    return take_in_range(e);
 }
 
 static enum br_status take_reading(const struct entry *e)
@@ -143,7 +143,8 @@ static const struct key keys[] = {
     {"without", take_text, .at = offsetof(struct br_orders_request, without)},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
-    {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},
+    {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension),
+     .range = {1, BR_MOST_DIMENSIONS, true}},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
     {"repeat", take_in_range, .at = offsetof(struct br_orders_request, repeat), .of_runs = true,
      .range = {1, BR_MOST_SIZES, true}},

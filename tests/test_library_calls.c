@@ -189,6 +189,7 @@ TEST(orders_of_a_table)
          "a.csv: --error: there is"},
         {{.text = two_columns, .dimension = NAN}, "table: found dimension nan"},
         {{.text = two_columns, .dimension = INFINITY}, "table: found dimension inf"},
+        {{.text = two_columns, .dimension = 2.5}, "table: found dimension 2.5"},
         {{.text = two_columns, .formal = -1}, "formal order -1"},
     };
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {

@@ -92,13 +92,13 @@ enum br_status br_request_of(const struct beamrate_table *table, struct br_order
     *q = br_orders_request_default();
     if (!table || !table->text)
         return br_fail(err, BR_BAD_INPUT, "table: found NULL, expected a table");
-    if (!(table->dimension >= 0 && isfinite(table->dimension) && table->formal >= 0 &&
+    if (!(table->dimension >= 0 && table->dimension <= BR_MOST_DIMENSIONS &&
+          table->dimension == floor(table->dimension) && table->formal >= 0 &&
           isfinite(table->formal)))
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "table: found dimension %g and formal order %g, expected numbers above 0, or "
-            "0: not stated",
-            table->dimension, table->formal);
+        return br_fail(err, BR_BAD_INPUT,
+                       "table: found dimension %g and formal order %g, expected a whole number "
+                       "up to %d and a number above 0, or 0: not stated",
+                       table->dimension, table->formal, BR_MOST_DIMENSIONS);
     q->path = (char *)(table->name ? table->name : "table");
     q->table = (char *)table->text;
     q->errors = (char *)table->errors;
