@@ -114,7 +114,8 @@ struct beamrate_table {
     const char *text;    /* UTF-8 */
     const char *errors;  /* columns of errors, "l2,h1"; NULL: all where values is NULL, too */
     const char *values;  /* columns of values whose limit is not known; NULL: none */
-    double dimension;    /* of the mesh whose unknowns or cells a column counts; 0: not stated */
+    double dimension;    /* of the mesh whose unknowns or cells a column counts, at most 16; 0: not
+                            stated */
     double formal;       /* theoretical order of values; 0: 2 */
     const char *columns; /* what columns are, as of --column: "dx=h, 3=l2"; NULL: not stated */
     const char *where;   /* the rows of one case, as of --where: "method=P1"; NULL: each case */
