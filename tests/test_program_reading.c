@@ -71,6 +71,8 @@ TEST(test_readings)
         {CSV, "a \"b\", c", "\"n\",\"a \"\"b\"\", c\"\r\n\"1\n2\",\"0.5\"\r\n", 0.5, NULL},
         {CSV, "x", "n,x\n4, 0.5", 0.5, NULL},
         {CSV, "n", "n\n\n3\n\n", 3, NULL},
+        {CSV, "x", "n,x\n4,0.5\nError: no convergence\n", NAN, "'Error: no convergence' below the"},
+        {CSV, "x", "1 of 2 failed\nn,x\n4,0.5\ndone\n", 0.5, NULL},
         {CSV, "y", "n,x\n4,0.5", NAN, "found 0 columns 'y'"},
         {CSV, "x", "x,x\n4,0.5", NAN, "found 2 columns 'x'"},
         {CSV, "x", "n,x\n", NAN, "found no row of numbers"},

@@ -20,16 +20,21 @@ static bool says_one_of(const char *const *words, const char *text)
 
 static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
 
-/* Whether a line, or one of those below it, up to the next row, says that a run failed. */
-static bool says_failure(const struct layout *l, size_t line, size_t lines)
+bool br_says_failure(const char *text)
 {
     static const char *const words[] = {
         "fail",      "diverg",    "crash",      "abort",    "killed",   "not conv",  "no conv",
         "out of m",  "no memory", "blew up",    "blows up", "timeout",  "timed out", "unstable",
         "did not f", "oom",       "terminated", "stopped",  "overflow", NULL};
+    return says_one_of(words, text) || says_one_of(crashes, text);
+}
+
+/* Whether a line, or one of those below it, up to the next row, says that a run failed. */
+static bool says_failure(const struct layout *l, size_t line, size_t lines)
+{
     bool says = false;
     for (size_t i = line; i < l->lines && i < line + lines && !l->row[i].is_row && !says; i++)
-        says = says_one_of(words, l->line[i].text) || says_one_of(crashes, l->line[i].text);
+        says = br_says_failure(l->line[i].text);
     return says;
 }
 

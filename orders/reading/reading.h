@@ -49,6 +49,9 @@ enum br_status br_fields_read(const char *text, const char *path,
                               struct br_error *err);
 void br_fields_clear(struct br_fields *fields); /* accepts zeros */
 
+/* Whether a line says that a run failed: "solver diverged". */
+bool br_says_failure(const char *line);
+
 /* Whether a text is meant to be JSON (json.c, for br_fields_read). */
 bool br_json_is_table(const char *text);
 
