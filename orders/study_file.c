@@ -84,15 +84,6 @@ static enum br_status take_number(const struct entry *e)
                    *unit ? " and its unit, " : "", unit);
 }
 
-static enum br_status take_formal(const struct entry *e)
-{
-    const enum br_status status = take_number(e);
-    return status || (e->request->formal >= 1 && e->request->formal <= 10)
-               ? status
-               : br_fail(e->err, BR_BAD_INPUT, "found '%s', expected an order from 1 to 10",
-                         e->text);
-}
-
 static enum br_status take_in_range(const struct entry *e)
 {
     double *value = (double *)((char *)e->request + e->of->at);
@@ -145,7 +136,8 @@ static const struct key keys[] = {
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension),
      .range = {1, BR_MOST_DIMENSIONS, true}},
-    {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
+    {"formal_order", take_in_range, .at = offsetof(struct br_orders_request, formal),
+     .range = {0, 11, false}},
     {"repeat", take_in_range, .at = offsetof(struct br_orders_request, repeat), .of_runs = true,
      .range = {1, BR_MOST_SIZES, true}},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
