@@ -72,8 +72,8 @@ static const struct br_option rows[] = {
          "Of a run, cpu and wall are measured, and so is memory. Other names are those of columns, "
          "or of numbers that 'read:' of a study file names."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
-     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, BR_MOST_DIMENSIONS),
-     .commands = BR_FOR_ORDERS,
+     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER,
+     WHOLE(1, BR_MOST_DIMENSIONS), .commands = BR_FOR_ORDERS,
      .more =
          "If it is not given, the growth of the numbers and the rates of a table decide it, or 2 "
          "is assumed for unknowns. The answer states what is assumed; a verdict then needs this "
