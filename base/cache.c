@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdatomic.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +14,13 @@ enum {
     SUM = BR_SHA256_TEXT, /* of all that follows, in a line of its own */
     LARGEST = 1 << 26     /* bytes */
 };
+
+static atomic_bool finished_work;
+
+bool br_cache_has_work(void)
+{
+    return atomic_load(&finished_work);
+}
 
 /* Of a cache: the path of an entry, or of its unfinished file. */
 static void name(const struct br_cache *k, const char *text, bool finished, char path[1300])
@@ -74,7 +82,10 @@ bool br_cache_take(const struct br_cache *k, const char *text, br_record_pass *p
     if (!record.wrong)
         pass_all(&record, self);
     free(file);
-    return !record.wrong && record.left == 0;
+    const bool taken = !record.wrong && record.left == 0;
+    if (taken)
+        atomic_store(&finished_work, true);
+    return taken;
 }
 
 /* Does not wait for the disk: an entry that a crash leaves incomplete is found by its sum. */
@@ -95,8 +106,10 @@ static bool put_in_place(const struct br_cache *k, const char *text, const char 
     name(k, text, false, unfinished);
     name(k, text, true, finished);
     mkdir(k->folder, 0777); /* only where there is something to keep */
-    if (write_file(unfinished, bytes, size) && rename(unfinished, finished) == 0)
+    if (write_file(unfinished, bytes, size) && rename(unfinished, finished) == 0) {
+        atomic_store(&finished_work, true);
         return true;
+    }
     const int reason = errno;
     unlink(unfinished);
     errno = reason;

@@ -32,4 +32,7 @@ bool br_cache_take(const struct br_cache *cache, const char *text, br_record_pas
  * does nothing. */
 bool br_cache_put(const struct br_cache *cache, const char *text, br_record_pass *pass, void *self);
 
+/* Whether this process has put an entry into a cache, or taken one. */
+bool br_cache_has_work(void);
+
 #endif

@@ -109,13 +109,13 @@ static enum br_status check_event(const struct br_yaml *r, const yaml_event_t *e
     const size_t line = event->start_mark.line + 1;
     const char *text = (const char *)event->data.scalar.value;
     if (depth > DEEPEST)
-        return br_yaml_refuse(r, line, "scene",
-                              "found lists or mappings nested more than %d deep, expected a scene",
+        return br_yaml_refuse(r, line, "YAML",
+                              "found lists or mappings nested more than %d deep, expected fewer",
                               DEEPEST);
     if (documents > 1)
-        return br_yaml_refuse(r, line, "scene", "a second document begins, expected one");
+        return br_yaml_refuse(r, line, "YAML", "a second document begins, expected one");
     if (event->type == YAML_SCALAR_EVENT && strlen(text) != event->data.scalar.length)
-        return br_yaml_refuse(r, line, "scene", "found '%s' followed by a zero byte, expected text",
+        return br_yaml_refuse(r, line, "YAML", "found '%s' followed by a zero byte, expected text",
                               text);
     return BR_OK;
 }

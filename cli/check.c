@@ -175,7 +175,8 @@ enum br_status br_check_sources(const struct br_options *options, struct br_sess
     bool failed = read_all(&r, err) || (writes && prepare_reports(&r, err)) || compute(&r, err) ||
                   (writes && write_all(&r, whole, err));
     for (size_t i = 0; i < r.most && !failed && writes; i++)
-        failed = br_numbers_check_runs(&r.item[i].study.numbers, err);
+        if (br_numbers_check_runs(&r.item[i].study.numbers, err))
+            failed = br_failed_in(err, r.item[i].path);
     clear(&r);
     return failed ? err->status : BR_OK;
 }

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/cache.h"
 #include "base/quote.h"
 #include "base/words.h"
 #include "cli/command.h"
@@ -97,17 +98,6 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     return status;
 }
 
-/* Whether the command keeps finished work, to go on with. */
-static bool may_resume(const char *word)
-{
-    struct br_option row[BR_OPTIONS];
-    const struct br_command *command = br_find_command(word);
-    for (size_t i = command ? br_options_of(command, row) : 0; i > 0; i--)
-        if (row[i - 1].id == BR_OPT_RESUME)
-            return true;
-    return false;
-}
-
 /* False at exit: a library (popt) ended the program, for lack of memory. */
 static bool returned;
 
@@ -151,7 +141,7 @@ static int run_all(int argc, const char **argv)
         return 0; /* rank 0 prints the error, and ends with the exit code */
     if (status == BR_INTERRUPTED) {
         fprintf(stderr, "beamrate: interrupted; no file is half written%s\n",
-                may_resume(argc > 1 ? argv[1] : "") ? "; --resume continues the same command" : "");
+                br_cache_has_work() ? "; --resume continues the same command" : "");
         br_signals_raise_again();
     }
     if (!status && br_signals_caught()) { /* a script must see that a signal came */

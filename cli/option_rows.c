@@ -2,6 +2,7 @@
 /* The options of orders and check, and those of all commands, a row each. */
 #include "cli/command.h"
 
+#include "orders/orders.h"
 #include "tables/document.h"
 
 BR_WORDS(format, br_document_formats)

@@ -56,7 +56,11 @@ struct br_left_aside {
 };
 
 /* Of numbers: some seconds are enough for the fits of a grid, and one for those of a line. */
-enum { BR_MOST_ROWS = 10000, BR_MOST_SIZES = 1000 /* along an axis */ };
+enum {
+    BR_MOST_ROWS = 10000,
+    BR_MOST_SIZES = 1000,   /* along an axis */
+    BR_MOST_DIMENSIONS = 16 /* of a mesh */
+};
 
 struct br_numbers {
     const struct br_resolution_column *column[BR_AXES]; /* NULL: that axis is not refined */

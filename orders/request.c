@@ -46,11 +46,22 @@ const char *br_orders_path(const struct br_orders_request *r)
     return r->table_path ? r->table_path : r->path;
 }
 
+/* Runs the program. A failure names the study file, since a check may have several. */
+static enum br_status run_program(const struct br_orders_request *r, struct br_numbers *numbers,
+                                  struct br_error *err)
+{
+    const enum br_status status = br_program_run(r, numbers, err);
+    if (!status || !r->folder)
+        return status;
+    const struct br_error inner = *err;
+    return br_fail(err, status, "%s: %.900s", r->path, inner.message);
+}
+
 enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbers *numbers,
                               struct br_error *err)
 {
     *numbers = (struct br_numbers){0};
-    const enum br_status status = (r->command ? br_program_run : br_table_read)(r, numbers, err);
+    const enum br_status status = (r->command ? run_program : br_table_read)(r, numbers, err);
     numbers->observer = r->observer;
     return status || br_numbers_check(numbers, br_orders_path(r), err) ||
                    br_orders_window(r, numbers, err)

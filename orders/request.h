@@ -34,7 +34,7 @@ struct br_program_axis {
     size_t count;
 };
 
-enum { BR_PROGRAM_SECONDS = 600, BR_MOST_DIMENSIONS = 16 };
+enum { BR_PROGRAM_SECONDS = 600 };
 
 /* Begins as br_orders_request_default. Texts and arrays are owned. */
 struct br_orders_request {

@@ -131,7 +131,7 @@ read:
 verify:
   err: h 2 +- 0.1
 END
-    expect 3 "1 of 5 runs failed; the first, n = 8: exit code 3" beamrate check bad.yaml --trust
+    expect 3 "bad.yaml: 1 of 5 runs failed; the first, n = 8: exit code 3" beamrate check bad.yaml --trust
     says "left out: n = 8 (failed)" "check bad.yaml"
     says "1 PASS" "check bad.yaml"
 }

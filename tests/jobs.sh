@@ -59,7 +59,7 @@ job() {
             cd work || exit 99
             PATH=$(tr '\n' : <../github_path)$folder/bin:$PATH
             GITHUB_ACTION_PATH=$folder/release/beamrate-0 GITHUB_PATH=$folder/github_path RUNNER_TEMP=$folder/runner \
-                GITHUB_STEP_SUMMARY=$folder/summary TABLE=$table EXPECT='l2: h 2 +- 0.1' DIMENSION='' OPTIONS='--threads 1' STUDY=$study \
+                GITHUB_STEP_SUMMARY=$folder/summary TABLE=$table EXPECT=$expect DIMENSION='' OPTIONS='--threads 1' STUDY=$study \
                 BEAMRATE_ARCHIVE=file://$folder/beamrate.tar.gz \
                 BEAMRATE_SHA256=$(sha256sum <../beamrate.tar.gz | cut -d' ' -f1) bash -eo pipefail "../$step"
         ) >>log 2>&1 || code=$?
@@ -72,7 +72,7 @@ job() {
     failures=$((failures + 1))
 }
 
-table='' study=poisson.yaml
+table='' study=poisson.yaml expect=''
 for what in action.yml docs/ci/your-solver.yml; do
     steps "$source/$what"
     : >log
@@ -84,12 +84,15 @@ for what in action.yml docs/ci/your-solver.yml; do
     job 1 'the order, 1.0'
     cp "$source/docs/orders/poisson.c" work/orders/
 done
-what='action.yml with a table' table=errors.csv study=''
+what='action.yml with a table' table=errors.csv study='' expect='l2: h 2 +- 0.1'
 steps "$source/action.yml"
 printf 'n,l2\n10,1e-1\n20,2.5e-2\n40,6.25e-3\n80,1.5625e-3\n' >work/orders/errors.csv
 job 0 '1 PASS'
 printf 'n,l2\n10,1e-1\n20,5e-2\n40,2.5e-2\n80,1.25e-2\n' >work/orders/errors.csv
 job 1 'the order, 1.0'
+what='action.yml with a table and a file' study=poisson.yaml
+job 2 "found 'file' beside 'table'"
+study=''
 steps "$source/docs/ci/your-solver.yml"
 what='a wrong checksum'
 sed -i 's/echo "\$BEAMRATE_SHA256/echo "0$BEAMRATE_SHA256/' step.1

@@ -128,6 +128,8 @@ def check_arrays():
     assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "more"]
     close(br.orders(frame, h="edge", errors="e")["e"].order.value, 1.5)
     close(br.orders(frame, h="edge", errors=["e"])["e"].order.value, 1.5)
+    commas = {"n": N, "L2, u": 1 / N, "v": 1 / N**2}
+    assert [q.name for q in br.orders(commas, errors=["L2, u"]).quantities] == ["L2, u"]
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
         file.write("n,e\n" + "".join(f"{n},{e!r}\n" for n, e in zip(N, error.tolist())))
         file.flush()

@@ -247,6 +247,7 @@ static const struct {
     {"level e f\n2 .1 1\n3 .02 2\nlevel 4 crashed\nLevels above 6 crashed, too\n",
      "level|e|f|\n2|.1|1|\n3|.02|2|\n4|||\n5 footer\n"},
     {"n e\n8 .1\n16 .02\nSegmentation fault\n", ":t:4: found 'Segmentation fault', expected a row"},
+    {"n e\n8 .1\n16 .02\n\nError: not converged\n", ":t:5: found 'Error: not converged', expected"},
     {"n e\n8 .1\n16 .02\nh = .03 failed\n", ":t:4: found 'h = .03 failed', expected a row of 2"},
     {"h [m],e\n2,4\n1,2\nh = .5 failed\n", "h [m]|e|\n2|4|\n1|2|\n.5||\n"},
     {"n e\n8 .1\n16 .02\nRunning n=32\nSegmentation fault\n",

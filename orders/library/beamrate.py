@@ -539,9 +539,11 @@ def _field(value, is_word):
 
 
 def _names(name, value):
-    value = [value] if isinstance(value, str) else value if value is None else list(value)
+    """Options' "l2,h1": one text, or a list of names, which may have commas."""
+    if value is not None:
+        value = [value] if isinstance(value, str) else [f'"{v}"' if "," in str(v) else str(v) for v in value]
     none = value is None or (value == [] and name != "errors")  # without errors=, all numbers are errors
-    return None if none else _text(name, ",".join(map(str, value)))
+    return None if none else _text(name, ",".join(value))
 
 
 _SIZES = ("h", "n", "level", "dofs", "cells", "points", "interior", "degree", "k", "dt", "steps")

@@ -30,7 +30,7 @@ static void leave_scatter(struct br_gci *gci, const struct br_point *v)
     const bool fine = gci->fine.difference <= hypot(v[1].half, v[2].half),
                coarse = gci->coarse.difference <= hypot(v[0].half, v[1].half);
     struct br_gci_pair *pair[] = {&gci->fine, &gci->coarse};
-    if (!fine && !coarse)
+    if ((!fine && !coarse) || gci->sequence == BR_SEQUENCE_CONSTANT)
         return;
     gci->sequence = fine && coarse ? BR_SEQUENCE_SCATTER : BR_SEQUENCE_UNKNOWN;
     gci->order = gci->asymptotic = NAN;

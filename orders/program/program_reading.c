@@ -369,6 +369,15 @@ static void shorten(char *text)
     memmove(head, tail, strlen(tail) + 1);
 }
 
+/* The first line below the last row that says that the run failed; NULL: there is none. */
+static const char *failure_below(const struct br_fields *f)
+{
+    for (size_t i = 0; i < f->lefts; i++)
+        if (f->left[i].line > f->line[f->rows - 1] && br_says_failure(f->left[i].text))
+            return f->left[i].text;
+    return NULL;
+}
+
 /* The number is in the last row. */
 static enum br_status search_csv(struct search *s)
 {
@@ -377,7 +386,7 @@ static enum br_status search_csv(struct search *s)
     struct br_error why = {0};
     struct br_field_number found;
     size_t columns = 0;
-    const char *field = NULL;
+    const char *field = NULL, *below;
     shorten(s->output);
     enum br_status status = br_fields_read(s->output, "the output", s->request->observer, &f, &why);
     for (size_t i = 0; i < f.columns && f.heading && !status; i++)
@@ -396,6 +405,11 @@ static enum br_status search_csv(struct search *s)
                         shown(buffer, s->reading->what));
     else if (!f.rows)
         status = refuse(s, "the table has no row below its heading");
+    else if ((below = failure_below(&f)))
+        status = refuse(s,
+                        "found '%s' below the last row, expected no failure (last:REGEX reads the "
+                        "number all the same)",
+                        shown(buffer, below));
     else {
         const bool reads = field && br_field_read(field, f.mark, &found);
         const char *text = reads   ? br_shortest(found.value, number, sizeof number)

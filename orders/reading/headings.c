@@ -217,6 +217,9 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     if (found == BR_NO_ROW)
         return br_roles_refuse_column(r, "--column", heading, size, err);
     struct br_role_column *c = &r->column[found];
+    if (c->by_hand)
+        return br_fail(err, BR_BAD_INPUT, "--column: found '%.*s', expected each column once",
+                       (int)length, item);
     char *name = br_store_take(&r->store, rest, 1);
     if (!name)
         return br_no_memory(err, "the table");

@@ -20,16 +20,21 @@ static bool says_one_of(const char *const *words, const char *text)
 
 static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
 
-/* Whether a line, or one of those below it, up to the next row, says that a run failed. */
-static bool says_failure(const struct layout *l, size_t line, size_t lines)
+bool br_says_failure(const char *text)
 {
     static const char *const words[] = {
         "fail",      "diverg",    "crash",      "abort",    "killed",   "not conv",  "no conv",
         "out of m",  "no memory", "blew up",    "blows up", "timeout",  "timed out", "unstable",
         "did not f", "oom",       "terminated", "stopped",  "overflow", NULL};
+    return says_one_of(words, text) || says_one_of(crashes, text);
+}
+
+/* Whether a line, or one of those below it, up to the next row, says that a run failed. */
+static bool says_failure(const struct layout *l, size_t line, size_t lines)
+{
     bool says = false;
     for (size_t i = line; i < l->lines && i < line + lines && !l->row[i].is_row && !says; i++)
-        says = says_one_of(words, l->line[i].text) || says_one_of(crashes, l->line[i].text);
+        says = br_says_failure(l->line[i].text);
     return says;
 }
 
@@ -284,13 +289,16 @@ static enum br_status make_row(struct layout *l, size_t line)
 enum { MOST_LINES = 20 /* of a failure */ };
 
 /* Makes a line that states a further size a row: where a run failed, or did not end. Refuses what
- * may be one. */
+ * may be one, and a failure without a number below the last row. */
 static enum br_status take_failed_run(struct layout *l, size_t line)
 {
     bool named, whole, follows;
     const bool is_text = l->line[line].kind == BR_LINE_TEXT, is_log = l->by <= BR_BY_COLONS;
     const size_t column = take_stated(l, line, &named, &whole);
-    bool refuses = !l->has_failed && line > l->first && says_one_of(crashes, l->line[line].text);
+    const bool is_footer = line > l->last && !strpbrk(l->line[line].text, "0123456789");
+    bool refuses =
+        !l->has_failed && line > l->first &&
+        (is_footer ? says_failure(l, line, 1) : says_one_of(crashes, l->line[line].text));
     if (column == BR_NO_ROW)
         refuses = says_failure(l, line, 1);
     else if (column < l->width) {

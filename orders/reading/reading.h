@@ -51,6 +51,8 @@ void br_fields_clear(struct br_fields *fields); /* accepts zeros */
 
 /* Names a text that is in no row (in the store of fields, which may fail). */
 void br_fields_leave(struct br_fields *fields, size_t line, const char *text, const char *why);
+/* Whether a line says that a run failed: "solver diverged". */
+bool br_says_failure(const char *line);
 
 /* Whether a text is meant to be JSON (json.c, for br_fields_read). */
 bool br_json_is_table(const char *text);
