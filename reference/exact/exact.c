@@ -342,10 +342,10 @@ static enum br_status refuse(const struct br_exact *exact, double worst,
         return br_fail(err, BR_NOT_FINITE, "%s", cause->message);
     if (isinf(worst))
         return br_fail(err, BR_NOT_FINITE, "the events still change with the number of modes");
-    return br_fail(err, BR_NOT_FINITE,
-                   "with %zu axial and %zu bending modes the error estimate is "
-                   "%.2g times the limit",
-                   exact->report[0].modes, exact->report[1].modes, worst);
+    return br_fail(
+        err, BR_NOT_FINITE,
+        "with %zu axial and %zu bending modes the error estimate is %.2g times the limit",
+        exact->report[0].modes, exact->report[1].modes, worst);
 }
 
 /* The search for two solutions that agree. */
@@ -603,10 +603,9 @@ static enum br_status mesh_data(struct search *s, struct br_error *err)
         s->missed = fmax(s->missed, s->data_mesh[which].missed);
     }
     if (!status && !(s->missed <= s->o->acceptable))
-        status = br_fail(err, BR_NOT_FINITE,
-                         "a share of %.2g of a load may lie in places that are too "
-                         "narrow to resolve",
-                         s->missed);
+        status =
+            br_fail(err, BR_NOT_FINITE,
+                    "a share of %.2g of a load may lie in places too narrow to resolve", s->missed);
     return status;
 }
 

@@ -73,20 +73,9 @@ static enum br_status common_levels(struct br_study *s, struct br_error *err)
     return BR_OK;
 }
 
-/* "does is A m", or "do are A and B m". */
-static const char *name_nearest(double a, double b, const char *unit, char text[80])
-{
-    if (a == b)
-        snprintf(text, 80, "does is %.10g%s", a, unit);
-    else
-        snprintf(text, 80, "do are %.10g and %.10g%s", a, b, unit);
-    return text;
-}
-
 static enum br_status check_nesting(const struct br_study *s, struct br_error *err)
 {
     size_t below, above;
-    char nearest[80];
     for (size_t i = 0; i < s->n_count; i++) {
         if (s->n[i] < 1)
             return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
@@ -94,9 +83,9 @@ static enum br_status check_nesting(const struct br_study *s, struct br_error *e
             continue;
         nearest_divisors(s->reference.n, s->n[i], &below, &above);
         return br_fail(err, BR_BAD_INPUT,
-                       "n = %zu does not nest in the reference's %zu elements; the nearest that %s",
-                       s->n[i], s->reference.n,
-                       name_nearest((double)below, (double)above, "", nearest));
+                       "n = %zu does not nest in the reference's %zu elements; the nearest that do "
+                       "are %zu and %zu",
+                       s->n[i], s->reference.n, below, above);
     }
     for (size_t j = 0; j < s->k_count; j++) {
         if (s->steps[j] >= 1 && s->reference.steps % s->steps[j] == 0)
@@ -104,11 +93,10 @@ static enum br_status check_nesting(const struct br_study *s, struct br_error *e
         nearest_divisors(s->reference.steps, s->steps[j] ? s->steps[j] : 1, &below, &above);
         return br_fail(err, BR_BAD_INPUT,
                        "the time levels of k = %g s are not all among the reference's (k = %g s); "
-                       "the nearest that %s",
+                       "the nearest k that would do are %.10g and %.10g s",
                        br_time_step(s->scene, s->steps[j]),
-                       br_time_step(s->scene, s->reference.steps),
-                       name_nearest(br_time_step(s->scene, above), br_time_step(s->scene, below),
-                                    " s", nearest));
+                       br_time_step(s->scene, s->reference.steps), br_time_step(s->scene, above),
+                       br_time_step(s->scene, below));
     }
     return BR_OK;
 }
