@@ -10,8 +10,8 @@
 
 /* ---- set-up ---- */
 
-static enum br_status check_method(const struct br_scene *scene, size_t n, size_t steps,
-                                   const struct br_method *method, struct br_error *err)
+enum br_status br_march_check(const struct br_scene *scene, size_t n, size_t steps,
+                              const struct br_method *method, struct br_error *err)
 {
     if (n < 1)
         return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
@@ -68,7 +68,7 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
                                size_t steps, const struct br_method *method, struct br_error *err)
 {
     *out = NULL;
-    enum br_status status = check_method(scene, n, steps, method, err);
+    enum br_status status = br_march_check(scene, n, steps, method, err);
     if (status)
         return status;
     struct br_march *m = br_allocate(1, sizeof *m);

@@ -55,6 +55,10 @@ struct br_tip {
     double friction_bound; /* h(t_n), N */
 };
 
+/* Whether a march can be set up: its scene, mesh, steps and method. Fails with BR_BAD_INPUT. */
+enum br_status br_march_check(const struct br_scene *scene, size_t n, size_t steps,
+                              const struct br_method *method, struct br_error *err);
+
 /* Sets up the march at t = 0. The scene must outlive it; its functions are
  * cloned, so that marches of one scene may run in different threads. Fails with
  * BR_BAD_INPUT, BR_SINGULAR, BR_NOT_FINITE or BR_NO_MEMORY, *march then NULL. */

@@ -124,6 +124,14 @@ enum br_status br_method_check(const struct br_method *m, const struct br_scene 
     return br_friction_check(m->friction, &m->iteration, err);
 }
 
+bool br_lagged_contact_grows(const struct br_method *m, const struct br_scene *scene, size_t n,
+                             double k)
+{
+    const struct br_field rod = br_field_of_scene(scene, BR_AXIAL, n, k, m->axial_degree);
+    return scene->contact.modelled && !m->contact->at_new_step &&
+           br_contact_grows(&rod, br_contact_stiffness(&scene->contact));
+}
+
 /* ---- damping ---- */
 
 /* A mode of frequency om has z = om k (-xi +- i sqrt(1 - xi^2)) with xi = c om / (2 a), and grows

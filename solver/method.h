@@ -47,6 +47,11 @@ const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *sc
 enum br_status br_method_check(const struct br_method *method, const struct br_scene *scene,
                                struct br_error *err);
 
+/* Whether a march of n elements and steps of k, s, has a lagged contact beyond its stability limit
+ * (laws.h): while it is closed, every step multiplies errors, and round-off. */
+bool br_lagged_contact_grows(const struct br_method *method, const struct br_scene *scene, size_t n,
+                             double k);
+
 /* ---- damping ---- */
 
 /* The largest step, s, with which a scheme that needs damping lets no mode of a field grow:

@@ -339,14 +339,13 @@ static enum br_status refuse(const struct br_exact *exact, double worst,
                              const struct br_error *cause, struct br_error *err)
 {
     if (cause->status)
-        return br_fail(err, BR_NOT_FINITE, "no exact solution: %s", cause->message);
+        return br_fail(err, BR_NOT_FINITE, "%s", cause->message);
     if (isinf(worst))
-        return br_fail(err, BR_NOT_FINITE,
-                       "no exact solution: the events still change with the number of modes");
-    return br_fail(err, BR_NOT_FINITE,
-                   "no exact solution: with %zu axial and %zu bending modes the error estimate is "
-                   "%.2g times the limit",
-                   exact->report[0].modes, exact->report[1].modes, worst);
+        return br_fail(err, BR_NOT_FINITE, "the events still change with the number of modes");
+    return br_fail(
+        err, BR_NOT_FINITE,
+        "with %zu axial and %zu bending modes the error estimate is %.2g times the limit",
+        exact->report[0].modes, exact->report[1].modes, worst);
 }
 
 /* The search for two solutions that agree. */
@@ -572,8 +571,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     enum br_status status = BR_OK;
     s->modes = next_modes(s);
     if (!s->modes)
-        return br_fail(err, BR_NOT_FINITE,
-                       "no exact solution: the loads and initial data need %zu and %zu elements",
+        return br_fail(err, BR_NOT_FINITE, "the loads and initial data need %zu and %zu elements",
                        s->data_mesh[0].end[BR_X].count, s->data_mesh[1].end[BR_X].count);
     for (; !status && s->modes && !(s->worst <= enough) && !is_stuck(s); s->round++) {
         status = next_round(s);
@@ -589,7 +587,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     }
     if (!(stated_error(s->exact) <= fmax(s->o->acceptable, NEAR * s->o->tolerance)))
         return br_fail(err, BR_NOT_FINITE,
-                       "no exact solution: its own relative error would be %.2g, expected at most "
+                       "its own relative error would be %.2g, expected at most "
                        "%g; the load changes faster than times in double precision can resolve",
                        stated_error(s->exact), s->o->acceptable);
     return list_events(s->exact, s->before, err);
@@ -607,9 +605,7 @@ static enum br_status mesh_data(struct search *s, struct br_error *err)
     if (!status && !(s->missed <= s->o->acceptable))
         status =
             br_fail(err, BR_NOT_FINITE,
-                    "no exact solution: a share of %.2g of a load may lie in places that are too "
-                    "narrow to resolve",
-                    s->missed);
+                    "a share of %.2g of a load may lie in places too narrow to resolve", s->missed);
     return status;
 }
 
@@ -638,11 +634,16 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
     solution_free(s.before);
     for (enum br_field_kind which = 0; which < BR_FIELDS; which++)
         br_data_mesh_clear(&s.data_mesh[which]);
-    if (status)
-        br_exact_free(s.exact);
-    else
+    if (!status)
         *out = s.exact;
-    return status;
+    else
+        br_exact_free(s.exact);
+    if (status != BR_NOT_FINITE)
+        return status;
+    const struct br_error cause = *err;
+    return br_fail(err, status,
+                   "no exact solution: %.800s; 'beamrate study --reference fine:N,K' needs none",
+                   cause.message);
 }
 
 void br_exact_free(struct br_exact *exact)

@@ -175,11 +175,9 @@ static enum br_status too_fine(const struct cover *c, struct br_box box)
     const struct br_interval here = along(box, c->one);
     if (width(c->whole.x) > 0 && width(c->whole.t) > 0)
         return br_fail(c->err, BR_NOT_FINITE,
-                       "no exact solution: a load of x and t has details that are too fine near "
-                       "x = %g m, t = %g s",
-                       box.x.low, box.t.low);
-    return br_fail(c->err, BR_NOT_FINITE,
-                   "no exact solution: the data have details that are too fine near %s = %g %s",
+                       "a load of x and t has too fine details near x = %g m, t = %g s", box.x.low,
+                       box.t.low);
+    return br_fail(c->err, BR_NOT_FINITE, "the data have details that are too fine near %s = %g %s",
                    c->one == BR_X ? "x" : "t", here.low + width(here) / 2,
                    c->one == BR_X ? "m" : "s");
 }

@@ -327,7 +327,7 @@ static void march_to(struct march *m, double limit)
 {
     while (!m->status && m->s->time < limit) {
         if (m->track->steps >= m->options->max_steps)
-            m->status = br_fail(m->err, BR_NOT_FINITE, "more than %zu time steps until %.17g s",
+            m->status = br_fail(m->err, BR_NOT_FINITE, "more than %zu time steps until %g s",
                                 m->options->max_steps, m->s->time);
         else
             step(m, limit);

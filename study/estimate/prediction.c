@@ -40,7 +40,7 @@ struct comparison {
     size_t n[CELLS], steps[CELLS];
     const struct br_method *of[CELLS]; /* the setting's: the same pointer is the same method */
     struct br_method method[CELLS];
-    struct br_study study;
+    struct br_study study, tip; /* in the L2 norm, and at the tip */
 };
 
 struct marches {
@@ -184,6 +184,7 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     const size_t coarse = s->finer > 1 ? fine / 2 : fine, some = s->shorter > 1 ? many / 2 : many;
     struct br_error failure = {0};
     br_study_clear(&c->study);
+    br_study_clear(&c->tip);
     *c = (struct comparison){.active = true, .scene = *m->run->scene, .beyond = itself ? 0 : 1};
     if (which == START)
         c->scene.duration *= (double)s->steps / (double)m->run->steps;
@@ -206,6 +207,9 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->at[HALF] = fewer_n       ? place(c, s, s->own, s->n / 2, s->steps)
                   : fewer_steps ? place(c, s, s->own, s->n, s->steps / 2)
                                 : -1;
+    c->tip = c->study;
+    c->tip.norm = &br_norm_tip;
+    c->study.next_norm = &c->tip;
     if (br_study_run_each(&c->study, 1, 1, NULL, &failure)) {
         if (failure.status != BR_INTERRUPTED) /* by itself, for its many steps */
             return br_fail(err, failure.status, "%s", failure.message);
@@ -512,6 +516,17 @@ static struct br_predicted relative(const struct marches *m, struct br_predicted
     return (struct br_predicted){e.error / least, e.low / *largest, e.high / least, e.order};
 }
 
+/* The largest ratio of RUN's error at the tip to its L2 norm, m^(-1/2). */
+static double at_tip(const struct marches *m, enum br_field_kind kind)
+{
+    const enum br_part part = br_part_of(kind);
+    double most = 0;
+    for (const struct comparison *c = m->by + TIGHT; c < m->by + START; c++)
+        if (c->active && off(c, RUN, kind) > 0)
+            most = fmax(most, c->tip.cell[c->at[RUN]].error[part] / off(c, RUN, kind));
+    return most;
+}
+
 static void set_estimate(struct br_prediction *p, const struct marches *m)
 {
     const struct comparison *by = m->by;
@@ -525,6 +540,7 @@ static void set_estimate(struct br_prediction *p, const struct marches *m)
             continue;
         const struct br_predicted e = p->field[kind] =
             relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
+        p->at_tip[kind] = at_tip(m, kind);
         finite = finite && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
         if (!(e.high > p->whole.high))
@@ -570,7 +586,7 @@ double br_predicted_most(const struct br_prediction *p, enum br_field_kind kind)
 double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, double length)
 {
     const double shape = kind == BR_AXIAL ? 3 : 5;
-    return br_predicted_most(p, kind) * p->size[kind] * sqrt(shape / length);
+    return br_predicted_most(p, kind) * p->size[kind] * fmax(sqrt(shape / length), p->at_tip[kind]);
 }
 
 double br_predict_round_off(const struct br_planned_march *o)
@@ -601,8 +617,10 @@ enum br_status br_predict(const struct br_planned_march *planned, struct br_pred
         p->known = p->bounded = false;
         snprintf(p->why, sizeof p->why, "%s too short for the marches that predict it", unresolved);
     }
-    for (int i = 0; i < COMPARISONS; i++)
+    for (int i = 0; i < COMPARISONS; i++) {
         br_study_clear(&m.by[i].study);
+        br_study_clear(&m.by[i].tip);
+    }
     p->seconds = br_seconds() - begun;
     return status;
 }

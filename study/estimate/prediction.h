@@ -32,8 +32,9 @@ struct br_prediction {
     bool bounded;                 /* `whole` has low and high, even if it is not known */
     struct br_predicted field[2]; /* of discretisation, by br_field_kind; zeros: not
                                      modelled */
-    double size[2]; /* of the fields, by br_field_kind: their largest L2 norms in the marches,
-                       m^(3/2) */
+    double size[2];   /* of the fields, by br_field_kind: their largest L2 norms in the marches,
+                         m^(3/2) */
+    double at_tip[2]; /* the ratio of the tip's error to that norm in the marches, m^(-1/2) */
     struct br_predicted space, time, whole; /* of the field whose upper bound is the larger */
     double round_off; /* relative to the exact discrete solution: br_predict_round_off */
     double seconds;   /* that the prediction took */
@@ -52,8 +53,8 @@ enum br_status br_predict(const struct br_planned_march *planned, struct br_pred
 double br_predicted_most(const struct br_prediction *prediction, enum br_field_kind kind);
 
 /* The same at the tip of a beam of that length, m, for an error that is largest there and grows
- * like x (axial) or x^2 (bending): the field's rms error times 3^(1/2) or 5^(1/2). It is an
- * estimate. */
+ * like x (axial) or x^2 (bending): the field's rms error times 3^(1/2) or 5^(1/2); or more, as the
+ * marches show. It is an estimate. */
 double br_predicted_tip(const struct br_prediction *prediction, enum br_field_kind kind,
                         double length);
 

@@ -75,8 +75,7 @@ void br_check_contact(const struct br_planned_march *o, struct br_warnings *warn
     const double k = scene->duration / (double)o->steps;
     const struct br_field field =
         br_field_of_scene(scene, BR_AXIAL, o->n, k, o->method->axial_degree);
-    if (!scene->contact.modelled || o->method->contact->at_new_step ||
-        !br_contact_grows(&field, br_contact_stiffness(&scene->contact)))
+    if (!br_lagged_contact_grows(o->method, scene, o->n, k))
         return;
     char text[400];
     contact_remedy(o, &field, text);
@@ -146,7 +145,7 @@ static enum br_status check_bounces(const struct br_planned_march *o, struct br_
         s, BR_AXIAL, o->n, s->duration / (double)o->steps, o->method->axial_degree);
     if (!s->contact.modelled || o->method->contact->at_new_step ||
         !(br_contact_stiffness(&s->contact) > br_contact_limit_bouncing(&field)) ||
-        br_contact_grows(&field, br_contact_stiffness(&s->contact)))
+        br_lagged_contact_grows(o->method, s, o->n, field.k))
         return BR_OK;
     double share;
     char found[120] = "";
@@ -340,7 +339,8 @@ enum br_status br_check_ahead_cheaply(const struct br_planned_march *o, struct b
 enum br_status br_check_ahead(const struct br_planned_march *o, struct br_warnings *w,
                               struct br_error *err)
 {
-    const bool refused = br_check_ahead_cheaply(o, w, err) || br_check_loads(o, w, err) ||
+    const bool refused = br_march_check(o->scene, o->n, o->steps, o->method, err) ||
+                         br_check_ahead_cheaply(o, w, err) || br_check_loads(o, w, err) ||
                          check_prediction(o, w, err);
     return refused ? err->status : BR_OK;
 }

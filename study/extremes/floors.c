@@ -55,16 +55,6 @@ static bool is_usual(const struct br_method *m, bool sticks, size_t steps)
     return steps <= most_of_one || (m->scheme->may_lag && m->contact->at_new_step && sticks);
 }
 
-/* Whether the lagged contact is beyond its limit, where it multiplies round-off in each step. */
-static bool contact_grows(const struct br_scene *scene, const struct br_method *m, size_t n,
-                          size_t steps)
-{
-    const struct br_field rod =
-        br_field_of_scene(scene, BR_AXIAL, n, br_time_step(scene, steps), 1);
-    return scene->contact.modelled && !m->contact->at_new_step &&
-           br_contact_grows(&rod, br_contact_stiffness(&scene->contact));
-}
-
 /* Whether a solver is measured on a mesh by default. An assembled matrix has no digits left at
  * 100,000 elements; to factorise a larger one to refuse it takes a third of the time of all. */
 static bool is_usual_mesh(const struct br_method *m, size_t n)
@@ -81,7 +71,8 @@ static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps,
     for (size_t i = 0; i < f->scenes * f->method.count; i++) {
         const struct br_scene *scene = f->scene[i / f->method.count];
         const struct br_named_method *by = &f->method.list[i % f->method.count];
-        const bool grows = contact_grows(scene, &by->method, n, steps);
+        const bool grows =
+            br_lagged_contact_grows(&by->method, scene, n, br_time_step(scene, steps));
         const bool usual = f->gathered ? is_usual(&by->method, scene == f->scene[0], steps)
                                        : is_usual_mesh(&by->method, n);
         const bool marched = (chosen || usual) && !(f->gathered && grows);

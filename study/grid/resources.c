@@ -110,8 +110,10 @@ enum br_status br_fit_together(const struct br_study *studies, size_t count, dou
         br_costs_add_study(&w, &studies[i]);
     if (w.bytes <= available)
         return BR_OK;
-    return br_fail(err, BR_NO_MEMORY,
-                   "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
-                   "of them, fewer elements, or longer steps",
-                   w.marches, w.bytes / 1e9, available / 1e9);
+    return br_fail(
+        err, BR_NO_MEMORY,
+        "%zu march%s at once take%s about %.3g GB, %.3g GB are available: expected fewer "
+        "of them, fewer elements, or longer steps",
+        w.marches, w.marches == 1 ? "" : "es", w.marches == 1 ? "s" : "", w.bytes / 1e9,
+        available / 1e9);
 }

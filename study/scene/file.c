@@ -140,6 +140,15 @@ static enum br_status set_name(const struct br_scene_reader *r)
     return BR_OK;
 }
 
+/* The line of the section that a message names first ("axial: ..."), else that of the scene. */
+static size_t line_of(const struct br_scene_reader *r, const yaml_node_t *root, const char *message)
+{
+    char section[16];
+    const yaml_node_t *named =
+        sscanf(message, "%15[a-z]:", section) == 1 ? br_yaml_value(&r->yaml, NULL, section) : NULL;
+    return br_yaml_line(named ? named : root);
+}
+
 static enum br_status read_document(const struct br_scene_reader *r,
                                     const struct br_scene_asked *asked)
 {
@@ -150,7 +159,7 @@ static enum br_status read_document(const struct br_scene_reader *r,
     if (read_section(r, "", root) || set_name(r) || br_scene_derive(r))
         return r->yaml.err->status;
     if (br_scene_check(r->scene, &inner))
-        return br_scene_pass_on(r, br_yaml_line(root), "scene", &inner);
+        return br_scene_pass_on(r, line_of(r, root, inner.message), "scene", &inner);
     if (br_scene_apply_solutions(r) || br_scene_check_functions(r, br_yaml_line(root)))
         return r->yaml.err->status;
     return asked->take_verify

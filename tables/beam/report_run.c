@@ -109,7 +109,12 @@ static void answer_error(struct br_document *d, const struct br_prediction *p)
     else
         br_put_more(d, ", %.2g%s from the time steps and %.2g%s from the elements",
                     in * p->time.error, unit, in * p->space.error, unit);
-    br_put_more(d, "; round-off %.1g.", p->round_off);
+}
+
+/* NaN: not known. A lagged contact beyond its limit multiplies round-off in each closed step. */
+static double round_off_of(const struct br_run_findings *f)
+{
+    return f->report->contact_unstable ? NAN : f->prediction->round_off;
 }
 
 static void put_answers(struct br_document *d, const struct br_run_findings *f)
@@ -123,14 +128,15 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (f->prediction->known)
         answer_error(d, f->prediction);
     else if (f->prediction->bounded)
-        br_put_answer(d,
-                      "The discretisation error is not known (between %.0e and %.0e): %s; "
-                      "round-off %.1e.",
-                      f->prediction->whole.low, f->prediction->whole.high, f->prediction->why,
-                      f->prediction->round_off);
+        br_put_answer(d, "The discretisation error is not known (between %.0e and %.0e): %s",
+                      f->prediction->whole.low, f->prediction->whole.high, f->prediction->why);
     else
-        br_put_answer(d, "The discretisation error is not known: %s; round-off %.1e.",
-                      f->prediction->why, f->prediction->round_off);
+        br_put_answer(d, "The discretisation error is not known: %s", f->prediction->why);
+    const double round_off = round_off_of(f);
+    if (isfinite(round_off))
+        br_put_more(d, f->prediction->known ? "; round-off %.1g." : "; round-off %.1e.", round_off);
+    else
+        br_put_more(d, "; nor is the round-off.");
 
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
@@ -494,7 +500,7 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
         br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
                      br_field_names[kind]);
     }
-    BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
+    BR_FACT(d, br_number(round_off_of(f)), .key = "prediction.round_off", .heading = "round-off",
             .format = "%.1e");
     br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
 
