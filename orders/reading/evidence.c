@@ -187,15 +187,19 @@ static bool grows_by(const struct view *v, double more, double factor, bool stea
     return pairs >= 2 && off <= 0.08;
 }
 
-/* Whether all numbers are whole powers, 11^3, 13^3, 17^3, and not of a power that has them, too. */
+static bool is_power(double number, double power)
+{
+    return isnan(number) || pow(round(pow(number, 1 / power)), power) == number;
+}
+
+/* Whether all numbers are squares or all are cubes, 11^3, 13^3, 17^3, and not both, as 64 is. */
 static bool are_powers(const struct view *v, double power)
 {
     const struct br_role_column *c = own(v);
-    bool are = power > 1 && c->is_whole && c->least >= 1, also = power == 2;
-    for (size_t i = 0; i < v->roles->rows && are && c->number; i++) {
-        const double side = round(pow(c->number[i], 1 / power)), edge = round(cbrt(c->number[i]));
-        are = isnan(c->number[i]) || pow(side, power) == c->number[i];
-        also &= isnan(c->number[i]) || pow(edge, 3) == c->number[i];
+    bool are = power > 1 && c->number && c->is_whole && c->least >= 1, also = are;
+    for (size_t i = 0; i < v->roles->rows && are; i++) {
+        are = is_power(c->number[i], power);
+        also &= is_power(c->number[i], power == 2 ? 3 : 2);
     }
     return are && !also;
 }
