@@ -525,11 +525,11 @@ void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AX
     value[BR_LOG_F] = cells->lowest - log(2);
 }
 
-double br_joint_shape_start(const struct br_family *f)
+double br_joint_shape_start(const struct br_family *f, double log_finest)
 {
     return f->law == BR_LAW_NEXT        ? 0.3
            : f->law == BR_LAW_KINK      ? 0.5
-           : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1.5 * f->low))
+           : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1 - log_finest))
                                         : log(f->low * f->high) / 2;
 }
 

@@ -276,7 +276,7 @@ static void extend(struct br_joint_search *s, const struct br_joint_candidate *f
             if (!(axes >> a & 1))
                 continue;
             law.of[a] = f;
-            v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f);
+            v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f, s->used.log_finest[a]);
             v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * (kink ? 1 : f->s));
             v[BR_PLACE] = (f->low + f->high) / 2;
         }
