@@ -55,8 +55,8 @@ static double bend(const struct br_family *f, const double v[BR_OF_AXIS], double
         return log1p(expm1(v[BR_SHAPE]) * exp(f->s * log_x));
     if (f->law == BR_LAW_KINK)
         return v[BR_SHAPE] * fmax(0, log_x - v[BR_PLACE]);
-    return br_law_bend(f, exp(v[BR_SHAPE]), &(struct br_law_place){log_z, exp(f->s * log_z), 1})
-        .correction;
+    const struct br_law_place at = {.log_z = log_z, .power = exp(f->s * log_z), .finest = 1};
+    return br_law_bend(f, exp(v[BR_SHAPE]), &at).correction;
 }
 
 /* The errors of one axis at all sizes, with their rates. */
