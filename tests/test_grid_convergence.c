@@ -307,7 +307,8 @@ TEST(test_exact_laws)
 }
 
 /* The values of which one answer said "order 2.0000" and "no limit"; and rounded ones, whose
- * interval is not narrower than half a unit of the last digit. */
+ * interval is not narrower than half a unit of the last digit: of three values, and of many that
+ * end within their last digit. */
 TEST(test_one_answer)
 {
     static const double h[] = {1, .5, .25, .125, .0625},
@@ -324,6 +325,15 @@ TEST(test_one_answer)
     MUST(br_limit_of_values(rounded, 3, &r, &err));
     AT_MOST(r.value.low, .07915);
     AT_MOST(.07925, r.value.high);
+    static const double many[] = {-1.8491408, -2.4306829, -2.4712922, -2.474128,
+                                  -2.474326,  -2.4743399, -2.4743408, -2.4743409};
+    static const double tends_to = -2.4743409008; /* + 0.6252 (4 h)^3.84 */
+    struct br_point line[8];
+    for (size_t i = 0; i < 8; i++)
+        line[i] = (struct br_point){.z = ldexp(1, -(int)i), .value = many[i], .rounding = 5e-8};
+    MUST(br_limit_of_values(line, 8, &r, &err));
+    assert_true(r.value.low <= tends_to && tends_to <= r.value.high);
+    AT_MOST(r.value.high - r.value.low, 1e-6);
 }
 
 /* Other units of size and value: the same limit. */

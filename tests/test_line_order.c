@@ -276,6 +276,20 @@ TEST(test_too_few)
     assert_true(isnan(found.order.value));
 }
 
+/* A power leads through three rows to 0.1 %; what a half power adds is half of each error. */
+TEST(test_three_rows)
+{
+    struct br_point point[3];
+    struct br_line_order found;
+    for (size_t i = 0; i < 3; i++) {
+        const double z = pow(1.3, -(double)i);
+        point[i] = (struct br_point){.z = z, .error = z * z * (1 + sqrt(z))};
+    }
+    find(point, 3, &found);
+    assert_true(found.order.low <= 2 && 2 <= found.order.high);
+    AT_MOST(found.order.high - found.order.low, 1);
+}
+
 TEST(test_root_of_a_logarithm)
 {
     struct br_point point[ROWS];

@@ -625,8 +625,9 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 
 void br_case_decide(struct br_case *c)
 {
+    /* The points of a joint fit are at the finest k that their h has, which may be another k. */
     const struct br_point *failed = first_failed(c), *beyond = first_beyond(c),
-                          *turns = br_turning_point(c);
+                          *turns = c->of_grid ? NULL : br_turning_point(c);
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");

@@ -55,8 +55,8 @@ static double bend(const struct br_family *f, const double v[BR_OF_AXIS], double
         return log1p(expm1(v[BR_SHAPE]) * exp(f->s * log_x));
     if (f->law == BR_LAW_KINK)
         return v[BR_SHAPE] * fmax(0, log_x - v[BR_PLACE]);
-    return br_law_bend(f, exp(v[BR_SHAPE]), &(struct br_law_place){log_z, exp(f->s * log_z), 1})
-        .correction;
+    const struct br_law_place at = {.log_z = log_z, .power = exp(f->s * log_z), .finest = 1};
+    return br_law_bend(f, exp(v[BR_SHAPE]), &at).correction;
 }
 
 /* The errors of one axis at all sizes, with their rates. */
@@ -525,11 +525,11 @@ void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AX
     value[BR_LOG_F] = cells->lowest - log(2);
 }
 
-double br_joint_shape_start(const struct br_family *f)
+double br_joint_shape_start(const struct br_family *f, double log_finest)
 {
     return f->law == BR_LAW_NEXT        ? 0.3
            : f->law == BR_LAW_KINK      ? 0.5
-           : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1.5 * f->low))
+           : f->law == BR_LAW_LOGARITHM ? log(fmax(4, 1 - log_finest))
                                         : log(f->low * f->high) / 2;
 }
 

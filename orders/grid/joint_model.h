@@ -74,7 +74,7 @@ size_t br_joint_sizes(const struct br_joint_cells *cells, int axis);
 /* Where the search for a law begins: at these orders and this r. */
 void br_joint_start(const struct br_joint_cells *cells, const double order[BR_AXES], double r,
                     double value[BR_UNKNOWNS]);
-double br_joint_shape_start(const struct br_family *family);
+double br_joint_shape_start(const struct br_family *family, double log_finest); /* of the axis */
 
 /* From the values of a trial towards a minimum: roughly, to choose among starts. robust: cells that
  * are off by far more do not count; 0: all do. */

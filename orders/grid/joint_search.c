@@ -276,7 +276,7 @@ static void extend(struct br_joint_search *s, const struct br_joint_candidate *f
             if (!(axes >> a & 1))
                 continue;
             law.of[a] = f;
-            v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f);
+            v[BR_SHAPE] = i ? 1.5 : br_joint_shape_start(f, s->used.log_finest[a]);
             v[BR_ORDER] = fmax(0.3, v[BR_ORDER] - 0.5 * i * (kink ? 1 : f->s));
             v[BR_PLACE] = (f->low + f->high) / 2;
         }
@@ -317,14 +317,12 @@ static const struct br_joint_candidate *likeliest(const struct br_joint_search *
 }
 
 /* Models that are less probable than the best one by more than this logarithm are not extended, nor
- * those with a law that are less probable than one without any (Occam's window). Of one power, all
- * that may be are. */
-static const double occam = 5, all_plain = 15;
+ * those with a law that are less probable than one without any (Occam's window). Those of one power
+ * all are: where no power describes the cells, the worst may be the one that a law mends. */
+static const double occam = 5;
 
-/* Extends the candidates from `from` on, also those that come so, by the options in this range.
- * plain_margin: in place of all_plain. */
-static void grow(struct br_joint_search *s, size_t from, size_t first, size_t end,
-                 double plain_margin)
+/* Extends the candidates from `from` on, also those that come so, by the options in this range. */
+static void grow(struct br_joint_search *s, size_t from, size_t first, size_t end)
 {
     double plainest = -INFINITY;
     for (size_t i = from; i < s->count; i++)
@@ -332,9 +330,7 @@ static void grow(struct br_joint_search *s, size_t from, size_t first, size_t en
             plainest = fmax(plainest, s->candidate[i].log_weight);
     for (size_t i = from; i < s->count; i++) {
         const struct br_joint_candidate c = s->candidate[i];
-        if (c.laws == 0   ? !(c.log_weight < plainest - plain_margin)
-            : c.laws == 1 ? c.log_weight > fmax(s->best - occam, plainest)
-                          : false)
+        if (c.laws == 0 || (c.laws == 1 && c.log_weight > fmax(s->best - occam, plainest)))
             extend_by(s, &c, first, end);
     }
 }
@@ -366,7 +362,7 @@ void br_joint_look_at(struct br_joint_search *s, size_t window)
 /* Tries orders that change; and beside the best change along each axis, all other laws. */
 static void grow_changes(struct br_joint_search *s, size_t from)
 {
-    grow(s, from, s->smooth, s->options, INFINITY);
+    grow(s, from, s->smooth, s->options);
     for (int a = 0; a < BR_AXES; a++) {
         size_t best = s->count;
         for (size_t i = from; i < s->count; i++)
@@ -390,7 +386,7 @@ static void search_window(struct br_joint_search *s, size_t window)
         add_candidate(s, &plain[i], start, starts_of(&s->used, &plain[i], start));
     if (!s->any_model || s->count == from)
         return;
-    grow(s, from, 0, s->smooth, all_plain);
+    grow(s, from, 0, s->smooth);
     if (!is_exact(s, &likeliest(s, window)->trial))
         grow_changes(s, from);
     for (int turn = 0; turn < 2; turn++) {

@@ -69,6 +69,18 @@ BR_PRIOR_CONST struct br_family br_families[BR_FAMILIES] = {
     ROW(BR_LAW_OFFSET, 0, 0.01, 8, 0.005, 1, "the same with a next term"),
 };
 
+static struct br_law_bend bend_by_logarithm(double s, double a, const struct br_law_place *at)
+{
+    const double t = a - at->log_z, u = t + at->finer;
+    const double left = pow(t, s) - at->lost * pow(u, s);
+    const double slope = s * a * (pow(t, s - 1) - at->lost * pow(u, s - 1)) / left;
+    return (struct br_law_bend){.correction =
+                                    t > 0.1 && left > 0 ? log(left / (1 - at->lost)) : (double)NAN,
+                                .weight = 1,
+                                .change = 0.05,
+                                .slope = fabs(slope)};
+}
+
 struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
                                const struct br_law_place *at)
 {
@@ -96,11 +108,7 @@ struct br_law_bend br_law_bend(const struct br_family *f, double parameter,
         b.slope = b.change = t * t / (1 + t * t);
         break;
     case BR_LAW_LOGARITHM:
-        t = parameter - at->log_z;
-        b.correction = t > 0.1 ? f->s * log(t) : (double)NAN;
-        b.change = 0.05;
-        b.slope = fabs(f->s) * parameter / t;
-        break;
+        return bend_by_logarithm(f->s, parameter, at);
     case BR_LAW_FLOOR:
     case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
         t = (f->law == BR_LAW_OFFSET ? -parameter : parameter) * at->finest;

@@ -91,11 +91,14 @@ struct br_priors {
 };
 extern BR_PRIOR_CONST struct br_priors br_priors;
 
-/* A size z over the finest one, and the error there, as far as a law needs them. */
+/* A size z over the finest one, and the error there, as far as a law needs them. A difference is
+ * the error there less that at a finer size. */
 struct br_law_place {
     double log_z;
-    double power;  /* z^s; of a difference times the next term of it over that of the error */
-    double finest; /* the finest error over this one */
+    double power;       /* z^s; of a difference times the next term of it over that of the error */
+    double finest;      /* the finest error over this one */
+    double finer, lost; /* of a difference: log of the sizes' ratio, the share of one power that is
+                           subtracted; 0 */
 };
 
 /* The logarithm of the correction there; NaN: the law allows no such error. */

@@ -110,14 +110,21 @@ static double next_of_difference(const struct br_rows *r, size_t i, double s)
     return expm1((p + s) * log_ratio) / expm1(p * log_ratio);
 }
 
+/* A logarithm to this power or a lower one is the law of differences of values itself. */
+enum { OF_VALUES = -2 };
+
 /* Sets what all members of a family have in common. */
 static void set_family(const struct br_rows *r, const struct br_family *f)
 {
     for (size_t i = 0; i < r->count; i++) {
         const double log_z = log(r->z[i]);
+        const bool differs = r->ratio[i] > 0 && f->s > OF_VALUES;
         r->place[i] =
-            (struct br_law_place){log_z, exp(f->s * log_z) * next_of_difference(r, i, f->s),
-                                  exp(r->y[r->count - 1] - r->y[i])};
+            (struct br_law_place){.log_z = log_z,
+                                  .power = exp(f->s * log_z) * next_of_difference(r, i, f->s),
+                                  .finest = exp(r->y[r->count - 1] - r->y[i]),
+                                  .finer = differs ? -log(r->ratio[i]) : 0,
+                                  .lost = differs ? pow(r->ratio[i], r->order) : 0};
         r->curve[i] = f->curve > 0
                           ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve)
                           : 0;
@@ -141,7 +148,8 @@ static void add_law(struct br_mixture *all, const struct br_rows *r, const struc
     for (size_t i = 0; i < r->count; i++)
         bend(r, i, f, parameter);
     const double crosses = br_law_log_prior(f, parameter, r->z[0]);
-    const struct br_law_place finest = {all->far, exp(f->s * all->far), 1};
+    const struct br_law_place finest = {
+        .log_z = all->far, .power = exp(f->s * all->far), .finest = 1};
     const double there = isfinite(all->far) ? br_law_bend(f, parameter, &finest).correction : 0;
     const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
@@ -232,7 +240,7 @@ static void add_member(struct br_mixture *all, const struct br_rows *r, const st
 {
     const bool stays = br_law_is_floor(f->law);
     const double parameter = exp(c->from + c->width / 2), share = c->width / log(f->high / f->low);
-    const bool of_values = f->law == BR_LAW_LOGARITHM && f->s < -1;
+    const bool of_values = f->law == BR_LAW_LOGARITHM && f->s <= OF_VALUES;
     if ((all->few && (stays || parameter < br_priors.few_next)) || /* two differences show none */
         (of_values && isnan(all->far)))
         return;
@@ -388,7 +396,7 @@ static enum br_status take_left(const struct br_mixture *all, const struct br_ro
         for (size_t j = p->last + 1; j < n; j++)
             lost = fmax(lost, exp(r->error[j]));
         for (size_t j = 0; j < nodes; j++) {
-            const double by = nodes > 1 ? fmin(most, node[j] * p->left_scale) : 0;
+            const double by = nodes > 1 ? fmax(-most, fmin(most, node[j] * p->left_scale)) : 0;
             const double e = exp(p->left + by);
             const double own = p->own * e * (1 - ratio) / ratio;
             struct br_law_part *q = &left->part[left->count++];

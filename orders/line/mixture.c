@@ -25,10 +25,7 @@ void br_mixture_add(struct br_mixture *all, const struct br_law_part *p)
         br_windows_join(&all->found,
                         &(struct br_windows){p->weight, p->misfit, p->first, p->first, p->last,
                                              p->last, p->outlier < all->rows});
-    if (p->weight > all->best) {
-        all->best = p->weight;
-        all->misfit = p->misfit;
-    }
+    all->best = fmax(all->best, p->weight);
     if (all->only_best)
         return;
     if (all->count == all->room) {

@@ -37,7 +37,6 @@ struct br_mixture {
     size_t rows;
     size_t count, room;
     double best;   /* the largest logarithm of a weight */
-    double misfit; /* of the part that has it */
     double far;    /* of values: x of the finest one; NaN: they are errors */
     double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
     double prior;  /* logarithm of that of the scatter */

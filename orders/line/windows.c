@@ -115,7 +115,8 @@ void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct
                    double least)
 {
     enum { FEW = 4 };                  /* of two differences: as if five had shown their scatter */
-    static const double chance = 2e-2; /* through three rows some parameter leads exactly */
+    static const double chance = 2e-2; /* some parameter leads through three rows exactly; so a
+                                          power that nearly does is no more probable */
     double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
     double yy = s->yy - s->y * s->y / s->w, qq = 1;
     const bool curved = s->unit > 0;
@@ -130,7 +131,9 @@ void br_window_add(struct br_mixture *all, const struct br_sums *s, const struct
     const double freedom = (double)s->rows - 2 - curved + s->freedom;
     if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
-    const bool by_chance = freedom < 2 && of->law != BR_LAW_POWER && of->law != BR_LAW_KINK;
+    const bool exact = left <= pow(br_priors.least_curved, 2) + s->v / s->w;
+    const bool by_chance =
+        freedom < 2 && !(of->law == BR_LAW_POWER && exact) && of->law != BR_LAW_KINK;
     const double seen =
         fmax(fmax(all->within_cell, by_chance ? chance : 0),
              curved && of->law != BR_LAW_KINK ? br_priors.least_curved : br_priors.least_scatter);

@@ -791,6 +791,24 @@ static void logvalues(struct br_test_random *r, struct br_error_line *s)
     }
 }
 
+/* Errors z^p log(1/z), of sizes in one ratio or in several. */
+static void logarithmlimit(struct br_test_random *r, struct br_error_line *s)
+{
+    mesh_sequence(r, s, 4, 8, 2);
+    s->values = true;
+    s->truth = PICK(r, .5, 1, 1.5, 2, 3);
+    s->limit = uniform(r, -3, 3);
+    const double c = uniform(r, .1, 1) * PICK(r, -1, 1), from = uniform(r, 1, 4);
+    const bool uneven = br_test_once_in(r, 2);
+    for (size_t i = 1; i < s->rows && uneven; i++)
+        s->h[i] = s->h[i - 1] / uniform(r, 1.5, 3);
+    EACH_ROW
+    {
+        const double z = s->h[i] / s->h[0];
+        s->e[i] = s->limit + c * pow(z, s->truth) * (from - log(z));
+    }
+}
+
 const struct br_error_class br_error_classes[] = {
     {"one power, 4 to 16 digits", BR_SMOOTH_ERRORS, clean},
     {"next term h", BR_SMOOTH_ERRORS, next1},
@@ -874,5 +892,6 @@ const struct br_error_class br_limit_classes[] = {
     {"limits: kink", BR_NOISY_ERRORS, kinkedvalues},
     {"limits: diverging", BR_NO_ORDER, diverging},
     {"limits: log n", BR_NO_ORDER, logvalues},
+    {"limits: logarithm", BR_NOISY_ERRORS, logarithmlimit},
     {NULL, BR_NO_ORDER, NULL},
 };

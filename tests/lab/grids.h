@@ -30,6 +30,7 @@ struct br_grid_law {
     size_t least, most;     /* meshes and steps */
     bool lower;             /* the next terms are larger than the first ones: one to eight times */
     bool logarithm;         /* h^p log(1/h) */
+    double ratio;           /* of neighbouring sizes; 0: 2 */
     size_t blown; /* so many cells are off by far, in the corner of large k, or anywhere */
     int digits;   /* as printed; 0: six */
     enum { BR_GRID_FULL, BR_GRID_MISSING, BR_GRID_TIED, BR_GRID_DIAGONALS } cells;
@@ -134,7 +135,8 @@ static inline void br_grid_draw(struct br_test_random *r, const struct br_grid_l
         .order = {orders[br_test_index(r, 5)], orders[br_test_index(r, 5)]},
         .other = {NAN, NAN},
     };
-    const double ratio = 2, correlation = br_test_uniform(r, law->least_r, law->most_r);
+    const double ratio = law->ratio > 0 ? law->ratio : 2;
+    const double correlation = br_test_uniform(r, law->least_r, law->most_r);
     double next[] = {br_test_uniform(r, -law->next, law->next),
                      br_test_uniform(r, -law->next, law->next)};
     const double h0 = 1 / floor(br_test_uniform(r, 4, 20)), k0 = br_test_decades(r, -3, 0);
@@ -227,6 +229,8 @@ static const struct br_grid_class {
     {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
     {"logarithm and power, 3 x 3", BR_HARD_ERRORS,
      {.least_r = 1, .most_r = 1, .logarithm = true, .least = 3, .most = 3}},
+    {"logarithm and power, ratio 3", BR_HARD_ERRORS,
+     {.least_r = 1, .most_r = 1, .logarithm = true, .ratio = 3, .least = 5, .most = 6}},
 };
 /* clang-format on */
 enum { BR_GRID_CLASSES = sizeof br_grid_classes / sizeof *br_grid_classes };
