@@ -15,6 +15,13 @@ __attribute__((constructor)) static void let_gsl_return(void)
     gsl_set_error_handler_off();
 }
 
+void br_test_free(void *pointer)
+{
+    void *memory;
+    memcpy(&memory, pointer, sizeof memory);
+    free(memory);
+}
+
 void br_test_close(const char *what, double actual, double expected, double tolerance,
                    const char *file, int line)
 {

@@ -21,6 +21,13 @@
 #define REFUSED(call, status, text) \
     br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__)
 
+/* A variable that is cleared, or freed, at the end of its block; from the last one to the first.
+ *     OWNED(br_numbers) numbers = read("h,l2\n1,1\n"); */
+#define OWNED(type) __attribute__((cleanup(type##_clear))) struct type
+#define FREED __attribute__((cleanup(br_test_free)))
+
+void br_test_free(void *pointer); /* a pointer to one */
+
 void br_test_close(const char *what, double actual, double expected, double tolerance,
                    const char *file, int line);
 void br_test_at_most(const char *what, double actual, double limit, const char *file, int line);

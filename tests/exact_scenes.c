@@ -7,6 +7,7 @@
 
 #include "tests/exact_points.h"
 #include "tests/exact_scenes.h"
+#include "tests/support.h"
 
 static void evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
@@ -102,12 +103,11 @@ void check_closed(const struct solved *s, double length, double until, int times
                   const struct expected *expected)
 {
     for (size_t i = 0; i < count; i++) {
-        struct br_function f = br_test_function(expected[i].f.s);
+        OWNED(br_function) f = br_test_function(expected[i].f.s);
         for (int n = 1; n <= times; n++) {
             br_exact_at(s->exact, until * n / times, s->state);
             check_now(s, length, &expected[i], &f);
         }
-        br_function_free(&f);
     }
 }
 

@@ -40,6 +40,16 @@ struct br_function br_test_function(const char *expression)
     return function;
 }
 
+void br_function_clear(struct br_function *function)
+{
+    br_function_free(function);
+}
+
+void br_march_clear(struct br_march **march)
+{
+    br_march_free(*march);
+}
+
 struct br_load br_test_load(const char *expression)
 {
     return (struct br_load){.term[0].space = br_test_function(expression),

@@ -13,9 +13,8 @@
 
 static enum br_status read_scene(const void *path, struct br_error *err)
 {
-    struct br_scene scene;
+    OWNED(br_scene) scene;
     const enum br_status status = br_scene_read(path, &scene, err);
-    br_scene_clear(&scene);
     return status;
 }
 
@@ -57,14 +56,12 @@ TEST(test_scene)
 
 static enum br_status read_set(const void *text, struct br_error *err)
 {
-    struct br_scene scene;
-    char *left = NULL;
+    OWNED(br_scene) scene;
+    FREED char *left = NULL;
     const struct br_scene_asked asked = {
         .set = "length=2 m\naxial.load.shape=x^2 [1]\naxial.tip_force=t [N]\nremark=a",
         .text = &left};
     const enum br_status status = br_scene_parse("full.yaml", text, &asked, &scene, err);
-    br_scene_clear(&scene);
-    free(left);
     return status;
 }
 
@@ -82,7 +79,7 @@ static enum br_status study(const void *data, struct br_error *err)
 {
     const struct march_data *d = data;
     static const size_t n[] = {2, 4}, steps[] = {5, 10};
-    struct br_study s = br_test_study(&d->scene, &br_reference_fine, 2, n, 2, steps);
+    OWNED(br_study) s = br_test_study(&d->scene, &br_reference_fine, 2, n, 2, steps);
     s.method = d->method;
     s.reference_method = d->method;
     s.reference = (struct br_resolution){8, 10};
@@ -93,7 +90,6 @@ static enum br_status study(const void *data, struct br_error *err)
             *err = s.cell[i].failure;
             status = err->status;
         }
-    br_study_clear(&s);
     return status;
 }
 
@@ -110,7 +106,7 @@ TEST(test_study)
 static enum br_status run_scene(const void *data, struct br_error *err)
 {
     struct br_run_report report;
-    struct br_history_record record = {0};
+    OWNED(br_history_record) record = {0};
     const struct br_history_observer recorder = br_history_recorder(&record, 4);
     static const size_t level[] = {0, 3};
     const struct march_data *d = data;
@@ -127,7 +123,6 @@ static enum br_status run_scene(const void *data, struct br_error *err)
         .outputs = 1,
     };
     const enum br_status status = br_run(&request, &report, err);
-    br_history_record_clear(&record);
     return status;
 }
 

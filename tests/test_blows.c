@@ -186,7 +186,7 @@ static enum outcome refused(const struct hard_load *c, const struct br_error *er
 static enum outcome try(const struct hard_load *c, bool useful)
 {
     struct br_error err = {0};
-    struct br_scene scene = {0};
+    OWNED(br_scene) scene = {0};
     struct br_exact *exact = NULL;
     struct patience patience = {clock(), may_be_refused(c) && !br_test_long() ? short_patience
                                                                               : usual_patience};
@@ -206,7 +206,6 @@ static enum outcome try(const struct hard_load *c, bool useful)
     if (outcome == WRONG && getenv("BR_TEST_SHOW"))
         print_message("%s\n", c->text);
     br_exact_free(exact);
-    br_scene_clear(&scene);
     return outcome;
 }
 

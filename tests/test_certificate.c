@@ -26,7 +26,7 @@ static void record(struct recorded *r, const char *contact, const char *friction
     r->scene.friction.regularisation = mu;
     r->method = br_test_method(NULL, contact, friction);
     r->method.axial_degree = degree;
-    struct br_march *march = br_test_march(&r->scene, N, 100, &r->method);
+    OWNED(br_march) *march = br_test_march(&r->scene, N, 100, &r->method);
     double(*const nodal[2])[SIZE] = {r->axial, r->bending};
     r->step = (struct br_checked_step){.scene = &r->scene, .method = &r->method, .n = N, .k = 0.01};
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -41,7 +41,6 @@ static void record(struct recorded *r, const char *contact, const char *friction
     br_march_load(march, BR_AXIAL, r->axial[4]);
     br_march_load(march, BR_BENDING, r->bending[4]);
     r->step.tip = *br_march_tip(march);
-    br_march_free(march);
 }
 
 static struct br_certificate certify(const struct br_checked_step *step)

@@ -11,7 +11,7 @@
 /* The derivatives belong together: each is the integral of the next. */
 TEST(test_derivatives)
 {
-    struct br_scene scene = br_test_bundled("example1");
+    OWNED(br_scene) scene = br_test_bundled("example1");
     struct solved solved = solve(&scene, 1e-10);
     br_exact_at(solved.exact, 0.6, solved.state);
     const double x = 0.4, h = 1e-3;
@@ -26,7 +26,6 @@ TEST(test_derivatives)
             assert_near(difference / (12 * h), expected, 1e-8 * (1 + fabs(expected)));
         }
     release(&solved);
-    br_scene_clear(&scene);
 }
 
 static void refuses(const struct br_scene *scene, struct br_exact_options options,
@@ -48,7 +47,7 @@ static double f_nan(const double *p, double x, double t)
 TEST(test_refusals)
 {
     struct formula bad = {f_nan, {0}};
-    struct br_scene good = br_test_bundled("example3");
+    OWNED(br_scene) good = br_test_bundled("example3");
     struct br_scene s = good;
     s.bending.load = (struct br_load){{{formula_function(&bad), {.constant = 1}}}};
     refuses(&s, (struct br_exact_options){0}, BR_NOT_FINITE, "not finite");
@@ -83,7 +82,6 @@ TEST(test_refusals)
     assert_int_equal(br_exact_projection_create(&none, solved.exact, &high, &mesh, NULL),
                      BR_BAD_INPUT);
     release(&solved);
-    br_scene_clear(&good);
 }
 
 /* Shared by those who would get the same one, and by nobody else. */
@@ -133,9 +131,8 @@ static enum br_status solve_and_project(const void *scene, struct br_error *err)
 
 TEST(test_allocations)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     br_test_without_memory(solve_and_project, &scene, 50);
-    br_scene_clear(&scene);
 }
 
 static void *read_all(void *data)
@@ -155,7 +152,7 @@ static void *read_all(void *data)
 
 TEST(test_threads)
 {
-    struct br_scene scene = br_test_bundled("example4");
+    OWNED(br_scene) scene = br_test_bundled("example4");
     struct solved solved = solve(&scene, 1e-8);
     pthread_t thread[4];
     double *sum[4];
@@ -171,5 +168,4 @@ TEST(test_threads)
     for (size_t i = 0; i < 4; i++)
         free(sum[i]);
     release(&solved);
-    br_scene_clear(&scene);
 }

@@ -30,7 +30,7 @@ TEST(test_floors)
     const struct br_extremes_job job = {
         .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 2, .step_count = 2};
     struct br_error err = {0};
-    struct br_floors f;
+    OWNED(br_floors) f;
     MUST(br_floors_run(&f, false, &job, &err));
     MUST(br_floors_verdict(&f, &err));
     for (size_t i = 0; i < f.floors; i++) {
@@ -49,7 +49,6 @@ TEST(test_floors)
     }
     br_fail(&f.floor[0].refused, BR_SINGULAR, "lost"); /* only assembled matrices may be */
     REFUSED(br_floors_verdict(&f, &err), BR_VERDICT, "lost");
-    br_floors_clear(&f);
 }
 
 /* Verdicts by hand, of the row among others that are right. The limit is what is predicted, and of
@@ -137,14 +136,13 @@ TEST(test_meshes)
                                             .n_count = listed ? 1 : 0,
                                             .observer = &stops};
         struct br_error err = {0};
-        struct br_floors f;
+        OWNED(br_floors) f;
         REFUSED(br_floors_run(&f, false, &job, &err), BR_INTERRUPTED, "interrupted");
         for (size_t i = 0; i < f.floors; i++) {
             const bool assembled = f.floor[i].by == &f.method.list[named(&f, "umfpack")];
             const bool left = !listed && assembled && f.floor[i].n > 100000;
             assert_true(f.floor[i].steps == (left ? 0 : BR_FLOOR_STEPS));
         }
-        br_floors_clear(&f);
     }
 }
 
@@ -156,17 +154,15 @@ TEST(test_any_scene)
     static const size_t n[] = {100, 1600}, steps[] = {5, 10};
     struct br_error err = {0};
     for (size_t i = 0; i < 2; i++) {
-        struct br_scene scene = br_test_bundled(names[i]);
+        OWNED(br_scene) scene = br_test_bundled(names[i]);
         const struct br_scene *const one[] = {&scene};
         const struct br_extremes_job job = {
             .scene = one, .scenes = 1, .n = n, .steps = steps, .n_count = 2, .step_count = 2};
-        struct br_floors f;
+        OWNED(br_floors) f;
         MUST(br_floors_run(&f, false, &job, &err));
         MUST(br_floors_verdict(&f, &err));
         for (size_t j = 0; j < f.floors; j++)
             AT_MOST(br_floor_deviation(&f.floor[j]), f.floor[j].predicted);
-        br_floors_clear(&f);
-        br_scene_clear(&scene);
     }
 }
 
@@ -198,7 +194,7 @@ TEST(test_drift)
     const struct br_extremes_job job = {
         .scene = both, .scenes = 2, .steps = steps, .step_count = 4};
     struct br_error err = {0};
-    struct br_floors d;
+    OWNED(br_floors) d;
     MUST(br_floors_run(&d, true, &job, &err));
     MUST(br_floors_verdict(&d, &err));
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
@@ -216,7 +212,6 @@ TEST(test_drift)
     }
     d.floor[0].deviation[BR_AXIAL] = NAN;
     REFUSED(br_floors_verdict(&d, &err), BR_VERDICT, "1 steps of 1 s: the round-off is nan");
-    br_floors_clear(&d);
 }
 
 int main(void)

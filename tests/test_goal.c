@@ -100,7 +100,7 @@ static double exhaustive(const struct br_trade *t, double most)
     static const size_t n[] = {4, 8, 12, 16, 32, 64, 128, 192, 256, 512, 1024};
     static const size_t k[] = {10, 12, 15, 20, 30, 40, 60, 80, 120, 240};
     enum { N = sizeof n / sizeof *n, K = sizeof k / sizeof *k };
-    struct br_trial *trial = calloc(ALL * N * K, sizeof *trial);
+    FREED struct br_trial *trial = calloc(ALL * N * K, sizeof *trial);
     struct br_error err = {0};
     size_t count = 0;
     assert_non_null(trial);
@@ -120,7 +120,6 @@ static double exhaustive(const struct br_trade *t, double most)
     for (size_t i = 0; i < count; i++)
         if (br_trial_bound(&trial[i]) <= t->goal.error)
             least = fmin(least, br_trial_seconds(&trial[i]));
-    free(trial);
     return least;
 }
 
@@ -136,7 +135,7 @@ TEST(test_promise)
                 continue;
             struct br_error err = {0};
             enum br_status status;
-            struct br_scene scene = br_test_bundled(scenes[s]);
+            OWNED(br_scene) scene = br_test_bundled(scenes[s]);
             struct br_trade *t = make(&scene, (struct br_trade_goal){.error = errors[e]},
                                       &(struct br_trade_grid){0}, ALL, &status, &err);
             MUST(status);
@@ -150,7 +149,6 @@ TEST(test_promise)
                 fail_msg("%s to %g: %s, n = %zu costs %g, the best %g", scenes[s], errors[e],
                          best->named->name, best->at.n, cost, least);
             drop(t);
-            br_scene_clear(&scene);
         }
 }
 
@@ -192,7 +190,7 @@ TEST(test_goals)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
         enum br_status status;
-        struct br_scene scene = br_test_bundled(rows[i].scene);
+        OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
         struct br_trade *t = make(&scene, rows[i].goal, &(struct br_trade_grid){0},
                                   rows[i].refusal ? 1 : ALL, &status, &err);
         if (rows[i].refusal) {
@@ -207,7 +205,6 @@ TEST(test_goals)
                         br_trial_seconds(best) <= rows[i].goal.seconds);
         }
         drop(t);
-        br_scene_clear(&scene);
     }
 }
 
@@ -218,7 +215,7 @@ TEST(test_lists_are_kept)
     static const double tolerance[] = {2e-3, 3e-7};
     struct br_error err = {0};
     enum br_status status;
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     for (int kind = 0; kind < 4; kind++) {
         const bool of_tolerances = kind == 3;
         const struct br_trade_grid grid = {.n = n,
@@ -242,7 +239,6 @@ TEST(test_lists_are_kept)
         }
         drop(t);
     }
-    br_scene_clear(&scene);
 }
 
 /* Of trials whose seconds are equal but for the clock's scatter the one with the smallest error is

@@ -410,9 +410,8 @@ TEST(test_heeded)
     scene.bending.modelled = false;
     struct br_method method = br_test_method("riccati", NULL, NULL);
     method.kernel = &counting;
-    struct br_march *march = br_test_march(&scene, 7, 4, &method);
+    OWNED(br_march) *march = br_test_march(&scene, 7, 4, &method);
     br_test_advance(march, 4);
-    br_march_free(march);
     assert_true(steps_counted >= 4);
 }
 
@@ -468,7 +467,7 @@ TEST(test_taken)
 /* It is the solver that is taken, to the last bit. */
 TEST(test_same_as_taken)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t n[] = {8, 100};
     for (int i = 0; i < 2; i++) {
         const struct br_method chosen = br_method_default(),
@@ -478,5 +477,4 @@ TEST(test_same_as_taken)
         assert_memory_equal(&a, &b, sizeof a);
         assert_true(a.u_tip != 0 && a.w_tip != 0);
     }
-    br_scene_clear(&scene);
 }

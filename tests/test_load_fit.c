@@ -66,14 +66,13 @@ TEST(test_smooth)
         for (size_t j = 0; j < 9; j++) {
             const struct br_field field =
                 field_of(kinds[j % 3].kind, n[j / 3], kinds[j % 3].degree);
-            struct br_function f = br_test_function(smooth[i]);
+            OWNED(br_function) f = br_test_function(smooth[i]);
             struct br_load_fit *fit;
             MUST(br_load_fit_create(&field, &f, duration, &fit, &err));
             if (!fit)
                 fail_msg("%s, n = %zu: no fit", smooth[i], field.n);
             assert_true(compare(&field, &f, fit) > 95);
             br_load_fit_free(fit);
-            br_function_free(&f);
         }
 }
 
@@ -94,20 +93,18 @@ TEST(test_refused)
     const struct br_field field = field_of(BR_AXIAL, 1000, 1);
     struct br_load_fit *fit;
     for (size_t i = 0; i < sizeof rough / sizeof *rough; i++) {
-        struct br_function f = br_test_function(rough[i]);
+        OWNED(br_function) f = br_test_function(rough[i]);
         MUST(br_load_fit_create(&field, &f, duration, &fit, &err));
         if (fit)
             fail_msg("%s has a fit", rough[i]);
-        br_function_free(&f);
     }
-    struct br_function f = br_test_function("sin(x*t)");
+    OWNED(br_function) f = br_test_function("sin(x*t)");
     struct br_field small = field_of(BR_AXIAL, 10, 1), brief = field;
     brief.k = duration;
     MUST(br_load_fit_create(&small, &f, duration, &fit, &err));
     assert_null(fit);
     MUST(br_load_fit_create(&brief, &f, duration, &fit, &err));
     assert_null(fit);
-    br_function_free(&f);
 }
 
 /* Where f is far smaller than elsewhere, or nothing is proved, the direct way is taken. */
@@ -115,9 +112,9 @@ TEST(test_direct)
 {
     struct br_error err = {0};
     const struct br_field field = field_of(BR_BENDING, 1000, 1);
-    struct br_function f = br_test_function("sin(x*t)*exp(20*t)");
+    OWNED(br_function) f = br_test_function("sin(x*t)*exp(20*t)");
     struct br_load_fit *fit;
-    double *vector = malloc(br_field_size(&field) * sizeof *vector);
+    FREED double *vector = malloc(br_field_size(&field) * sizeof *vector);
     assert_non_null(vector);
     MUST(br_load_fit_create(&field, &f, duration, &fit, &err));
     assert_non_null(fit);
@@ -127,9 +124,7 @@ TEST(test_direct)
     assert_false(br_load_fit_assemble(fit, &f, -1e-9, vector));
     assert_false(br_load_fit_assemble(fit, &f, 1.0001 * duration, vector));
     assert_false(br_load_fit_assemble(fit, &f, NAN, vector));
-    free(vector);
     br_load_fit_free(fit);
-    br_function_free(&f);
 }
 
 static enum br_status attempt(const void *data, struct br_error *err)
@@ -143,7 +138,6 @@ static enum br_status attempt(const void *data, struct br_error *err)
 
 TEST(test_memory)
 {
-    struct br_function f = br_test_function("sin(x*t)");
+    OWNED(br_function) f = br_test_function("sin(x*t)");
     br_test_without_memory(attempt, &f, 4);
-    br_function_free(&f);
 }

@@ -154,13 +154,12 @@ TEST(test_bundled)
     struct br_error err;
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
-        struct br_scene scene = br_test_bundled(name[i]);
+        OWNED(br_scene) scene = br_test_bundled(name[i]);
         for (size_t n = 10; n <= 1000; n *= 10) {
             const struct br_warnings w = warnings_of(&scene, n, 10);
             if (!is_said(&w, BR_WARN_LOAD_SPACE, NULL))
                 fail_msg("%s: %s", name[i], w.list[0].text);
         }
-        br_scene_clear(&scene);
     }
     br_scene_list_free(name, count);
 }

@@ -164,7 +164,7 @@ TEST(test_no_order_of_zero)
 
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
-    struct br_report r = m->report;
+    OWNED(br_report) r = m->report;
     observe(&r);
     assert_true(r.observed[part][BR_AXIS_SPACE].theory.order == in_h);
     assert_true(r.observed[part][BR_AXIS_TIME].theory.order == in_k);

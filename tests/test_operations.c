@@ -205,10 +205,9 @@ TEST(test_simplified)
 static enum br_status derive(const void *f, struct br_error *err)
 {
     const struct br_derivation what = {2, {{2, {1, 1}}, {3, {0, 2}}}, 0.5, NAN};
-    struct br_function out;
+    OWNED(br_function) out;
     const enum br_status status = br_function_derive(f, &what, &out, err);
     assert_true(status ? !out.ops : out.uses_t && !out.uses_x);
-    br_function_free(&out);
     return status;
 }
 

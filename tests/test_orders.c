@@ -199,12 +199,10 @@ TEST(test_stopped_fits)
                                &err),
             BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
-        struct br_numbers n = read_with(table_of(5, steps, 2, 1), NULL);
-        struct br_orders o;
+        OWNED(br_numbers) n = read_with(table_of(5, steps, 2, 1), NULL);
+        OWNED(br_orders) o;
         n.observer = &stops;
         REFUSED(br_orders_find(&n, 2, &o, &err), BR_INTERRUPTED, "interrupted");
-        br_orders_clear(&o);
-        br_numbers_clear(&n);
     }
     assert_true(asked > 1);
 }
@@ -519,7 +517,7 @@ TEST(test_growth)
     for (int is_value = 0; is_value < 2; is_value++) {
         struct br_numbers numbers =
             read_with("h,u\n1,1\n.5,.2\n.25,4\n.125,8\n.0625,16\n", is_value ? "u" : NULL);
-        struct br_orders orders;
+        OWNED(br_orders) orders;
         struct br_estimate growth;
         for (int i = 0; i < 5; i++)
             numbers.row[i].seconds = i < 2 ? 0.001 : 0.1 * pow(8, i);
@@ -533,7 +531,6 @@ TEST(test_growth)
             numbers.row[i].seconds = 1e-6 * pow(8, i);
         MUST(br_orders_growth(&orders, BR_AXIS_SPACE, &growth, &err));
         assert_true(isnan(growth.value));
-        br_orders_clear(&orders);
         br_numbers_clear(&numbers);
     }
 }
@@ -542,10 +539,9 @@ TEST(test_growth)
 
 static void refuse_expectation(const char *text, const char *message)
 {
-    struct br_order_expectation *e = NULL;
+    FREED struct br_order_expectation *e = NULL;
     size_t count = 0;
     REFUSED(br_expectations_read(text, 0, &e, &count, &err), BR_BAD_INPUT, message);
-    free(e);
 }
 
 TEST(test_grammar)
@@ -625,7 +621,7 @@ TEST(test_short_grammar)
         {"2: h 1", "2 h 1 +- 0.1"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_order_expectation *e = NULL;
+        FREED struct br_order_expectation *e = NULL;
         size_t count = 0;
         char text[1024] = "", band[BR_EXPECTATION_TEXT];
         MUST(br_expectations_read(rows[i][0], 0, &e, &count, &err));
@@ -636,7 +632,6 @@ TEST(test_short_grammar)
             if (!isnan(e[j].band.ceiling))
                 br_append(text, sizeof text, ", %g to %g", e[j].band.floor, e[j].band.ceiling);
         }
-        free(e);
         assert_string_equal(text, rows[i][1]);
     }
 }
@@ -645,8 +640,8 @@ TEST(test_short_grammar)
  * none. why: out, the reason. */
 static int verdict_of(const char *table, const char *values, const char *expected, char why[768])
 {
-    struct br_order_expectation *e = NULL;
-    struct br_check check = {.path = "t.csv"};
+    FREED struct br_order_expectation *e = NULL;
+    OWNED(br_check) check = {.path = "t.csv"};
     size_t count = 0;
     find(table, values);
     MUST(br_expectations_read(expected, 0, &e, &count, &err));
@@ -657,8 +652,6 @@ static int verdict_of(const char *table, const char *values, const char *expecte
     }
     assert_true(verdict >= 0 || err.status == BR_BAD_INPUT);
     snprintf(why, 768, "%.767s", verdict < 0 ? err.message : check.cases[count - 1].reason);
-    br_check_clear(&check);
-    free(e);
     return verdict;
 }
 
@@ -1122,10 +1115,10 @@ TEST(test_wrong_orders_never_pass)
 
 static enum br_status whole_table(const void *text, struct br_error *why)
 {
-    struct br_numbers numbers;
-    struct br_orders orders = {0};
-    struct br_order_expectation *e = NULL;
-    struct br_check check = {.path = "t.csv"};
+    OWNED(br_numbers) numbers;
+    OWNED(br_orders) orders = {0};
+    FREED struct br_order_expectation *e = NULL;
+    OWNED(br_check) check = {.path = "t.csv"};
     size_t count = 0;
     enum br_status status = read_table(text, "l2", "u", &numbers);
     if (!status)
@@ -1136,10 +1129,6 @@ static enum br_status whole_table(const void *text, struct br_error *why)
         status = br_orders_check(&orders, e, count, &check, why);
     if (status && !why->status)
         *why = err; /* of the table */
-    br_check_clear(&check);
-    free(e);
-    br_orders_clear(&orders);
-    br_numbers_clear(&numbers);
     return status;
 }
 
@@ -1147,10 +1136,11 @@ static enum br_status whole_table(const void *text, struct br_error *why)
  * mesh. */
 TEST(missing_values_hide_no_order)
 {
-    struct br_numbers n = read_with("h,v\n1,8\n.5,nan\n.25,7.0625\n.125,nan\n.0625,7.00390625\n"
-                                    ".03125,\n.015625,7.000244140625\n.0078125,-\n",
-                                    "v");
-    struct br_orders orders;
+    OWNED(br_numbers)
+    n = read_with("h,v\n1,8\n.5,nan\n.25,7.0625\n.125,nan\n.0625,7.00390625\n"
+                  ".03125,\n.015625,7.000244140625\n.0078125,-\n",
+                  "v");
+    OWNED(br_orders) orders;
     MUST(br_orders_find(&n, 2, &orders, &err));
     const struct br_orders_line *line = br_orders_finest(&orders.of[0], BR_AXIS_SPACE);
     CLOSE(line->observed.order.value, 2, 1e-6);
@@ -1159,8 +1149,6 @@ TEST(missing_values_hide_no_order)
     for (size_t i = 0; i < 7; i++)
         assert_int_equal(line->observed.point[i].flag,
                          i % 2 || i == 6 ? BR_FLAG_FAILED : BR_FLAG_NONE);
-    br_orders_clear(&orders);
-    br_numbers_clear(&n);
 }
 
 TEST(test_without_memory)
@@ -1176,8 +1164,8 @@ TEST(test_without_memory)
 TEST(test_means_of_two)
 {
     static const double h[] = {4, 2, 1}, mean[] = {1.5, 1.6, 1.5};
-    struct br_numbers numbers = {.column = {br_resolution_column_find("h")}};
-    struct br_orders orders;
+    OWNED(br_numbers) numbers = {.column = {br_resolution_column_find("h")}};
+    OWNED(br_orders) orders;
     MUST(br_numbers_make_room(&numbers, 3, 1, &err));
     MUST(br_numbers_add_quantity(&numbers, "drag", NULL, true, &err));
     for (size_t i = 0; i < 3; i++) {
@@ -1195,6 +1183,4 @@ TEST(test_means_of_two)
     CLOSE(line->limits.limit.value.high, 1.5 + 0.25 * 12.706204736, 1e-8);
     for (size_t i = 0; i < 2; i++)
         CLOSE(line->observed.point[i].rounding, 0, 0);
-    br_orders_clear(&orders);
-    br_numbers_clear(&numbers);
 }

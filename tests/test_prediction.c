@@ -80,7 +80,7 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
     struct br_named_method c;
     struct br_error err = {0};
     MUST(br_named_method_read(name, &c, &err));
-    struct br_study s = *shape;
+    OWNED(br_study) s = *shape;
     s.scene = scene;
     s.norm = &br_norm_l2;
     s.method = c.method;
@@ -89,7 +89,6 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
     MUST(br_study_run_each(&s, 1, 0, NULL, &err));
     for (size_t i = 0; !s.failure.status && i < br_study_cells(&s); i++)
         count_cell(t, &s, &s.cell[i], budget);
-    br_study_clear(&s);
 }
 
 /* Bundled scenes against the exact solution; budget: as in struct br_planned_march. */
@@ -102,11 +101,10 @@ static struct tally measure_bundled(double budget, const char *what)
         .n_count = MESHES, .k_count = STEPS, .n = meshes, .steps = steps};
     struct tally t = {0};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i += br_test_quick() ? 4 : 1) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[i]);
         for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
             if (br_test_long() || (i + m) % 3 == 0)
                 measure(&t, &scene, methods[m], &shape, budget);
-        br_scene_clear(&scene);
     }
     show(what, &t);
     return t;
@@ -227,7 +225,7 @@ TEST(test_layer)
                                "density: 1 kg/m\nbending:\n  stiffness: 0.001 N m^2\n"
                                "  viscosity: 200 N m^2 s\n  velocity: 0.01*x^2 [m/s]\n"
                                "  velocity_slope: 0.02*x [1/s]\n";
-    struct br_scene s;
+    OWNED(br_scene) s;
     struct br_error err = {0};
     struct tally t = {0};
     MUST(br_scene_read_text("layer", text, &s, &err));
@@ -246,7 +244,6 @@ TEST(test_layer)
     assert_true(p.known);
     AT_MOST(p.whole.low, p.whole.error / 3);
     AT_MOST(2.99999 * p.whole.error, p.whole.high);
-    br_scene_clear(&s);
 }
 
 /* ---- what is plainly inaccurate, or not known ---- */
@@ -284,7 +281,7 @@ TEST(test_inaccurate)
  * and it is said so, with the reason. */
 TEST(test_not_known)
 {
-    struct br_scene s = br_test_bare();
+    OWNED(br_scene) s = br_test_bare();
     struct br_method method = br_method_default();
     struct br_prediction p = predict(&s, &method, 10, 10);
     assert_true(p.known && p.bounded && p.whole.high == 0);
@@ -302,14 +299,13 @@ TEST(test_not_known)
     method.contact = br_contact_rule_find("implicit");
     p = predict(&s, &method, 10, 10);
     assert_true(p.known);
-    br_scene_clear(&s);
 }
 
 /* ---- warnings ---- */
 
 TEST(test_warnings)
 {
-    struct br_scene s = br_test_bundled("example2");
+    OWNED(br_scene) s = br_test_bundled("example2");
     struct br_method method = br_method_default();
     struct br_warnings w = warnings_of(&s, &method, 100, 1000);
     assert_int_equal(w.count, 0);
@@ -326,7 +322,6 @@ TEST(test_warnings)
     assert_non_null(strstr(one->text, "--solver umfpack at n = 6400"));
     assert_non_null(strstr(one->remedy, "--solver auto"));
     assert_null(br_test_warning(&w, BR_WARN_INACCURATE));
-    br_scene_clear(&s);
 }
 
 /* What the hard scenes begin with. */
@@ -444,7 +439,7 @@ TEST(test_hard)
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
         struct br_error err = {0};
         struct br_named_method c;
-        struct br_scene s;
+        OWNED(br_scene) s;
         struct br_prediction p;
         struct br_warnings w = {0};
         const struct br_planned_march o = hard_march(i, &s, &c, &p);
@@ -460,7 +455,6 @@ TEST(test_hard)
         if (!right)
             fail_msg("%s: known %d, %g to %g, %s", hard[i].what, p.known, p.whole.low, p.whole.high,
                      p.why);
-        br_scene_clear(&s);
     }
 }
 
@@ -472,7 +466,7 @@ TEST(test_hard_extrapolated)
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
         struct br_error err = {0};
         struct br_named_method c;
-        struct br_scene s;
+        OWNED(br_scene) s;
         struct br_prediction p;
         struct br_planned_march o = hard_march(i, &s, &c, &p);
         o.budget = 3e5;
@@ -481,7 +475,6 @@ TEST(test_hard_extrapolated)
             fail_msg("%s: %g, stated %g to %g", hard[i].what, hard[i].off, p.whole.low,
                      p.whole.high);
         known += p.known && strcmp(hard[i].what, "a creeping tip") == 0;
-        br_scene_clear(&s);
     }
     assert_int_equal(known, 1);
 }

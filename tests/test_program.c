@@ -405,7 +405,7 @@ TEST(test_cells_of_runs)
 {
     static const double list[] = {4, 8, 16};
     write_script("counting", "echo err=$1");
-    struct br_orders_request p = br_orders_request_default();
+    OWNED(br_orders_request) p = br_orders_request_default();
     MUST(br_orders_request_reading(&p, "err", "err=(.*)", &err));
     p.command = strdup(command_of("counting", "{cells}"));
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){
@@ -413,7 +413,6 @@ TEST(test_cells_of_runs)
     run(&p);
     assert_true(numbers.assumed && numbers.dimension == 1);
     CLOSE(numbers.row[2].z[BR_AXIS_SPACE], 1. / 16, 1e-15);
-    br_orders_request_clear(&p);
 }
 
 /* One run after the other: their times do not overlap. */
@@ -493,15 +492,13 @@ TEST(test_refused_lists)
         {"4,8,1e300", "n: found 1e+300, expected a whole number above 0"},
     };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        struct br_orders_request r = br_orders_request_default();
+        OWNED(br_orders_request) r = br_orders_request_default();
         REFUSED(br_orders_request_axis(&r, "n", lists[i][0], &err), BR_BAD_INPUT, lists[i][1]);
-        br_orders_request_clear(&r);
     }
-    struct br_orders_request r = br_orders_request_default();
+    OWNED(br_orders_request) r = br_orders_request_default();
     MUST(br_orders_request_reading(&r, "err", "err=(.*)", &err));
     REFUSED(br_orders_request_reading(&r, "err", "e=(.*)", &err), BR_BAD_INPUT,
             "err is read twice");
-    br_orders_request_clear(&r);
     struct br_orders_request p = program("true {n}");
     p.axis[BR_AXIS_SPACE].column = NULL;
     refuse(&p, BR_BAD_INPUT, "no list");
@@ -635,7 +632,7 @@ TEST(test_cost_of_the_system)
     write_script("system", "dd if=/dev/zero of=/dev/null bs=1M count=3000 2>/dev/null\n"
                            "times >$0.times; awk -F '[ms ]+' 'NR == 2 { print \"used=\" 60 * ($1 "
                            "+ $3) + $2 + $4 }' $0.times\necho err=1");
-    struct br_orders_request p = br_orders_request_default();
+    OWNED(br_orders_request) p = br_orders_request_default();
     MUST(br_orders_request_reading(&p, "err", "err=(.*)", &err));
     MUST(br_orders_request_reading(&p, "used", "used=(.*)", &err));
     p.command = strdup(command_of("system", "{cells}"));
@@ -643,7 +640,6 @@ TEST(test_cost_of_the_system)
         br_resolution_column_find("cells"), memcpy(malloc(sizeof one), one, sizeof one), 1};
     run(&p);
     AT_MOST(0.9 * numbers.row[0].number[1], numbers.row[0].seconds);
-    br_orders_request_clear(&p);
 }
 
 /* The memory of a cell is that of the run that takes the most, here its second. */
@@ -715,7 +711,7 @@ TEST(test_cached_script)
         "/usr/bin/env SCRIPT=%s sh -c '. $SCRIPT' x {n}",
     };
     char command[256], cache[128], folders[256];
-    char *before = strdup(getenv("PATH"));
+    FREED char *before = strdup(getenv("PATH"));
     snprintf(cache, sizeof cache, "%s", path_of("cache-script"));
     snprintf(folders, sizeof folders, "/no/such/folder:%s:/usr/bin:/bin", folder);
     setenv("PATH", folders, 1);
@@ -735,7 +731,6 @@ TEST(test_cached_script)
         }
     }
     setenv("PATH", before, 1);
-    free(before);
 }
 
 /* Failed cells are not kept, nor read those that are broken. */

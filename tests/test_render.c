@@ -38,11 +38,10 @@ static void check_missing(const char *folder)
     struct br_error err = {0};
     struct br_gnuplot g;
     bool missing = false;
-    char *path = strdup(getenv("PATH"));
+    FREED char *path = strdup(getenv("PATH"));
     setenv("PATH", "/dev/null", 1);
     REFUSED(br_gnuplot_start(&g, folder, "s0.gp", &missing, &err), BR_IO, "gnuplot");
     setenv("PATH", path, 1);
-    free(path);
     assert_true(missing);
 }
 

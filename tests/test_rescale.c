@@ -355,29 +355,26 @@ TEST(test_certificates)
 /* Powers of two round nothing: a beam of 1024 m has the digits of one of 1 m. */
 TEST(test_powers_of_two)
 {
-    struct br_scene now = in_units(&(struct br_units_change){1024, 0.125, 32});
+    OWNED(br_scene) now = in_units(&(struct br_units_change){1024, 0.125, 32});
     const struct factors f = {1024, 0.125, 1, 1e-12};
     for (size_t j = 0; j < REFERENCES; j++)
         compare_studies(j, &now, &f);
-    br_scene_clear(&now);
 }
 
 TEST(test_other_units)
 {
-    struct br_scene now = in_units(&(struct br_units_change){0.001, 700, 11});
+    OWNED(br_scene) now = in_units(&(struct br_units_change){0.001, 700, 11});
     const struct factors f = {0.001, 700, 1, 1e-7};
     compare_studies(0, &now, &f);
     compare_differences(&now, &f);
-    br_scene_clear(&now);
 }
 
 TEST(test_upside_down)
 {
-    struct br_scene now = made(-1);
+    OWNED(br_scene) now = made(-1);
     const struct factors f = {1, 1, -1, 1e-12};
     compare_studies(1, &now, &f);
     compare_differences(&now, &f);
-    br_scene_clear(&now);
 }
 
 AROUND_TESTS(run_once, forget)

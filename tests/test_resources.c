@@ -25,12 +25,11 @@ static double allocated(void)
 static double held(const struct br_scene *scene, const struct br_method *method, size_t n)
 {
     struct br_error err = {0};
-    struct br_march *march;
+    OWNED(br_march) * march;
     const double before = allocated();
     MUST(br_march_create(&march, scene, n, 1000, method, &err));
     MUST(br_march_step(march, &err));
     const double bytes = allocated() - before;
-    br_march_free(march);
     return bytes;
 }
 

@@ -124,7 +124,7 @@ TEST(test_default_named_methods)
 {
     const char *const scenes[] = {"example2", "example3"};
     for (size_t s = 0; s < 2; s++) {
-        struct br_scene scene = br_test_bundled(scenes[s]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[s]);
         struct br_named_methods all;
         size_t schemes[32] = {0};
         br_named_methods_default(&scene, &all);
@@ -134,7 +134,6 @@ TEST(test_default_named_methods)
         for (size_t j = 0; br_time_schemes[j]; j++)
             assert_true(schemes[j] > 0);
         assert_int_equal(schemes[0], s == 0 ? 2 : 1); /* lagged and implicit, where it matters */
-        br_scene_clear(&scene);
     }
 }
 
@@ -144,7 +143,7 @@ TEST(test_default_named_methods)
 TEST(test_errors_are_a_study_s)
 {
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_named_methods all;
     MUST(br_named_methods_read("euler+lagged,bdf2,bdf2+p2", &all, &err));
     struct br_trial trial[] = {
@@ -161,8 +160,9 @@ TEST(test_errors_are_a_study_s)
         request.norm = norm[m];
         MUST(br_trials_run(trial, COUNT, &request, &err));
         for (size_t i = 0; i < COUNT; i++) {
-            struct br_study study = br_test_study(&scene, &br_reference_exact, 1, &trial[i].at.n, 1,
-                                                  &trial[i].at.steps);
+            OWNED(br_study)
+            study = br_test_study(&scene, &br_reference_exact, 1, &trial[i].at.n, 1,
+                                  &trial[i].at.steps);
             study.norm = norm[m];
             study.method = br_trial_method(&trial[i]);
             MUST(br_study_run(&study, 1, 1, NULL, &err));
@@ -170,7 +170,6 @@ TEST(test_errors_are_a_study_s)
                 CLOSE(trial[i].error[part], study.cell[0].error[part],
                       1e-13 * study.cell[0].error[BR_PART_TOTAL]);
             CLOSE(trial[i].scale, study.reference_scale, 1e-12 * study.reference_scale);
-            br_study_clear(&study);
         }
     }
     for (size_t i = 0; i < COUNT; i++) {
@@ -180,7 +179,6 @@ TEST(test_errors_are_a_study_s)
         assert_int_equal(trial[i].cost.repeats, 1);
         AT_MOST(trial[i].own, 1e-9 * trial[i].scale);
     }
-    br_scene_clear(&scene);
 }
 
 /* Also where no number of levels has the levels of all trials on a mesh. */
@@ -189,7 +187,7 @@ TEST(test_steps_without_common_levels)
     static const size_t steps[] = {947, 1259, 1687, 2251, 3001, 4001};
     enum { COUNT = sizeof steps / sizeof *steps };
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example3");
+    OWNED(br_scene) scene = br_test_bundled("example3");
     struct br_named_methods all;
     struct br_trial trial[COUNT], alone;
     MUST(br_named_methods_read("bdf2", &all, &err));
@@ -204,7 +202,6 @@ TEST(test_steps_without_common_levels)
         MUST(br_trials_run(&alone, 1, &request, &err));
         CLOSE(br_trial_relative(&trial[i]), br_trial_relative(&alone), 1e-15);
     }
-    br_scene_clear(&scene);
 }
 
 static bool stop_at_once(void *self)
@@ -217,7 +214,7 @@ static bool stop_at_once(void *self)
 TEST(test_ends)
 {
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_named_methods all;
     MUST(br_named_methods_read("euler+regularised,euler,euler+implicit", &all, &err));
     scene.friction.regularisation = 0; /* so that the first has no mu */
@@ -241,7 +238,6 @@ TEST(test_ends)
     assert_true(br_trial_bound(&trial[2]) > 0);
     request.observer = &(const struct br_observer){.stop = stop_at_once};
     REFUSED(br_trials_run(trial, 3, &request, &err), BR_INTERRUPTED, "interrupted");
-    br_scene_clear(&scene);
 }
 
 /* ---- grids ---- */
@@ -267,7 +263,7 @@ static void drop(struct br_trade *t)
 /* The printed cells are the paper's method's, each once. */
 TEST(test_printed)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_printed_cell cells[] = {{100, 0.01, 1}, {200, 0.0005, 1}, {3200, 1e-4, 1}};
     const struct br_printed printed = {cells, 3};
     struct br_trade *t = laid_out(&scene, "euler+lagged,euler+implicit",
@@ -283,7 +279,6 @@ TEST(test_printed)
     }
     assert_int_equal(marked, 3);
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* More tolerances than steps; their trials have room. */
@@ -310,7 +305,7 @@ TEST(test_many_tolerances)
 /* Lists that are given are tried whole. */
 TEST(test_lists_are_tried)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t n[] = {100000}, steps[] = {10, 1000000};
     const double tolerance[] = {1e-3, 1e-5, 1e-7};
     struct br_trade *t = laid_out(&scene, "bdf2,adaptive",
@@ -330,7 +325,6 @@ TEST(test_lists_are_tried)
         &(struct br_trade_grid){.n = n, .tolerance = tolerance, .n_count = 1, .tolerances = 3});
     assert_int_equal(t->count, 3);
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* ---- what they take ---- */
@@ -342,7 +336,7 @@ TEST(test_forecast)
     static const size_t n[] = {40, 160}, steps[] = {10, 100, 10000};
     static const double tolerance[] = {1e-2, 1e-4};
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trade *t = laid_out(&scene, "euler+implicit,bdf2+plain,adaptive",
                                   &(struct br_trade_grid){.n = n,
                                                           .steps = steps,
@@ -379,7 +373,6 @@ TEST(test_forecast)
         assert_true(isnan(br_trial_bound(&t->trial[i])) == left);
     }
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* The marches whose pace was asked for. */
@@ -415,7 +408,7 @@ TEST(test_paces)
     static const size_t n[] = {40, 160}, steps[] = {10, 1000};
     static const double tolerance[] = {1e-2, 1e-4};
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trade *t = laid_out(&scene, "euler+implicit,esdirk4+plain,adaptive,adaptive+plain",
                                   &(struct br_trade_grid){.n = n,
                                                           .steps = steps,
@@ -433,7 +426,6 @@ TEST(test_paces)
     for (size_t i = 0; i < 5; i++)
         assert_int_equal(paced[i].n, 160);
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* A reference's work is forecast with the first trial that needs it, and passes to the next one
@@ -441,7 +433,7 @@ TEST(test_paces)
 TEST(test_reference_is_forecast)
 {
     struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trial trial[] = {{.named = &pair[0], .at = {10, 100000}},
                                {.named = &pair[1], .at = {10, 100000}}};
     struct br_trial_request request = br_trial_request_default(&scene);
@@ -455,7 +447,6 @@ TEST(test_reference_is_forecast)
     assert_int_equal(trial[0].end, BR_TRIAL_LEFT);
     CLOSE(trial[1].estimated, trial[0].estimated, 1e-12 * beside);
     CLOSE(forecast.seconds, trial[1].estimated, 1e-12 * forecast.seconds);
-    br_scene_clear(&scene);
 }
 
 static int make_pair(void **state)

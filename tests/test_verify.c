@@ -42,8 +42,8 @@ static enum br_status read_part(const char *part, struct br_scene *scene, struct
 
 TEST(test_whole)
 {
-    struct br_scene scene;
-    struct br_verify v;
+    OWNED(br_scene) scene;
+    OWNED(br_verify) v;
     struct br_error err = {0};
     MUST(read_part("verify:\n"
                    "  joint:\n"
@@ -101,8 +101,6 @@ TEST(test_whole)
     CLOSE(tip->band.ceiling, 2e-5, 0);
     size_t line;
     MUST(br_verify_check(&scene, &v, &line, &err));
-    br_verify_clear(&v);
-    br_scene_clear(&scene);
 }
 
 /* No bundled scene is taken for a study file of another program. */
@@ -127,8 +125,8 @@ TEST(test_scenes_are_no_study_files)
 /* A part that the scene does not model has no order. */
 TEST(test_default)
 {
-    struct br_scene scene;
-    struct br_verify v;
+    OWNED(br_scene) scene;
+    OWNED(br_verify) v;
     struct br_error err = {0};
     size_t line;
     MUST(read_part("", &scene, &v, &err));
@@ -141,8 +139,6 @@ TEST(test_default)
     }
     scene.axial.modelled = false;
     REFUSED(br_verify_check(&scene, &v, &line, &err), BR_BAD_INPUT, "the scene has no axial part");
-    br_verify_clear(&v);
-    br_scene_clear(&scene);
 }
 
 static void refuse(char *row)
@@ -160,10 +156,9 @@ TEST(test_refusals)
 TEST(test_ignored_by_others)
 {
     struct br_scene scene;
-    struct br_verify v;
+    OWNED(br_verify) v;
     struct br_error err = {0};
     assert_int_equal(read_part("verify: 3\n", &scene, &v, &err), BR_BAD_INPUT);
-    br_verify_clear(&v);
     br_scene_clear(&scene);
     MUST(br_scene_read(br_test_scene_file(with("verify: 3\n")), &scene, &err));
     br_scene_clear(&scene);

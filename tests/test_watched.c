@@ -309,12 +309,11 @@ TEST(test_watched_is_unwatched)
             w.method = method_of(br_time_schemes[i], solver ? "plain" : "riccati", &w.scene);
             assert_true(start(&w, N, 100, NULL));
             advance(&w, 100);
-            struct br_march *alone = br_test_march(&w.scene, N, 100, &w.method);
+            OWNED(br_march) *alone = br_test_march(&w.scene, N, 100, &w.method);
             br_test_advance(alone, 100);
             br_march_get(w.march, BR_BENDING, a[0], a[1]);
             br_march_get(alone, BR_BENDING, b[0], b[1]);
             assert_memory_equal(a, b, sizeof a);
-            br_march_free(alone);
             finish(&w);
         }
 }

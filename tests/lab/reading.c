@@ -441,8 +441,8 @@ static struct outcome read_table(const char *table, const struct table_case *c,
                                  struct change change)
 {
     struct br_error err = {0};
-    struct br_numbers n = {0};
-    struct br_orders_request r = br_orders_request_default();
+    OWNED(br_numbers) n = {0};
+    OWNED(br_orders_request) r = br_orders_request_default();
     r.path = copy_of(c->name, strlen(c->name));
     r.table = copy_of(table, strlen(table));
     enum br_status status = BR_OK;
@@ -451,8 +451,6 @@ static struct outcome read_table(const char *table, const struct table_case *c,
     else
         status = br_fail(&err, BR_BAD_INPUT, "no such option: %s", c->options);
     const struct outcome o = find_outcome(&n, status, &err, &c->expected, change);
-    br_numbers_clear(&n);
-    br_orders_request_clear(&r);
     return o;
 }
 
@@ -797,7 +795,7 @@ static char *contents(const char *path)
 /* That a case's names are in its table, for cases that are not tried yet. */
 static void check(const struct table_case *c)
 {
-    char *table = copy_of(c->table, c->length);
+    FREED char *table = copy_of(c->table, c->length);
     const struct expected *e = &c->expected;
     size_t lines = 0;
     for (const char *t = table; *t; t++)
@@ -813,7 +811,6 @@ static void check(const struct table_case *c)
         if (s->count > lines && !strchr("[{", table[0]))
             printf("# %s: more sizes than lines\n", c->name);
     }
-    free(table);
 }
 
 enum { USUAL = 4 };
@@ -847,9 +844,8 @@ int main(int arguments, char **argument)
             check(&cases[i]);
             continue;
         }
-        char *table = copy_of(cases[i].table, cases[i].length);
+        FREED char *table = copy_of(cases[i].table, cases[i].length);
         const struct outcome o = read_table(table, &cases[i], (struct change){false, false});
-        free(table);
         count(tally_of(kinds, &known, cases[i].kind), &o);
         count(&total, &o);
         if (o.verdict >= WRONG || (all && o.verdict > ASSUMED))
