@@ -32,7 +32,6 @@ struct br_load uniform(double amplitude, const char *time)
 
 struct solved solve(const struct br_scene *scene, double tolerance)
 {
-    struct br_error err = {0};
     struct solved s = {0};
     const struct br_exact_options options = {.tolerance = tolerance};
     if (br_exact_create(&s.exact, scene, &options, &err))

@@ -13,7 +13,6 @@
 
 struct br_scene br_test_bundled(const char *name)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     char path[1024];
     MUST(br_scene_find(name, path, sizeof path, &err));
@@ -34,7 +33,6 @@ struct br_scene br_test_bare(void)
 
 struct br_function br_test_function(const char *expression)
 {
-    struct br_error err = {0};
     struct br_function function;
     MUST(br_expression(expression, &function, &err));
     return function;
@@ -74,7 +72,6 @@ struct br_method br_test_method(const char *solver, const char *contact, const c
 struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t steps,
                                const struct br_method *method)
 {
-    struct br_error err = {0};
     struct br_march *march;
     MUST(br_march_create(&march, scene, n, steps, method, &err));
     return march;
@@ -82,7 +79,6 @@ struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t st
 
 void br_test_advance(struct br_march *march, size_t until)
 {
-    struct br_error err = {0};
     while (br_march_steps_done(march) < until)
         MUST(br_march_step(march, &err));
 }
@@ -166,7 +162,6 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
 
 void br_test_scene_refused(const char *text, bool verify, const char *message)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     struct br_verify v = {0};
     const char *path = br_test_scene_file(text);

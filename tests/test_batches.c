@@ -56,7 +56,6 @@ static void expect_same(const struct br_study *a, const struct br_study *b)
 static void march_one_by_one(struct br_study *studies, size_t count,
                              const struct br_batches *batches)
 {
-    struct br_error err = {0};
     FREED char *bytes = NULL;
     size_t size;
     FILE *results = open_memstream(&bytes, &size);
@@ -77,7 +76,6 @@ TEST(test_same_bits)
     struct br_scene scene = br_test_bundled("example3"), bad = scene;
     bad.friction.regularisation = 0;
     for (int ranks = 1; ranks <= 5; ranks += 2) {
-        struct br_error err = {0};
         struct br_study whole[STUDIES], parts[STUDIES];
         struct br_study *const sets[] = {whole, parts};
         for (int i = 0; i < 2; i++) {
@@ -126,7 +124,6 @@ static size_t batches_of(const struct br_batches *batches, const size_t *of)
 TEST(test_cutting)
 {
     OWNED(br_scene) scene = br_test_bundled("example1");
-    struct br_error err = {0};
     const size_t n[] = {100, 200, 400, 800}, steps[] = {5000, 6000, 8000, 10000};
     struct br_study s[] = {
         prepared(&scene, &br_reference_exact, (struct br_resolution){0, 120000}),

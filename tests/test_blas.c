@@ -59,7 +59,6 @@ COUNTED(NUMERIC, int, umfpack_di_numeric,
 /* The number of threads is right while two of ours are at work, too. */
 TEST(test_one_thread)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_study s =
         br_test_study(&scene, &br_reference_exact, 2, (size_t[]){4, 8}, 2, (size_t[]){20, 50});

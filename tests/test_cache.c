@@ -39,7 +39,6 @@ static struct br_cache open_cache(void)
 /* A run that is over in a moment. Returns whether it was taken. */
 static bool is_taken(struct br_cache *cache)
 {
-    struct br_error err = {0};
     static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
     static const struct br_reading reading = {
         .name = "err", .what = "(.*)", .kind = BR_READING_REGEX};

@@ -59,14 +59,12 @@ static struct br_certificate limits(void)
 /* The step is refused, by the entry whose description contains `what`. */
 static void assert_detected(struct recorded *r, const char *what)
 {
-    struct br_error err = {0};
     const struct br_certificate certificate = certify(&r->step), most = limits();
     REFUSED(br_certificate_check(&certificate, &most, &err), BR_VERDICT, what);
 }
 
 static void assert_good(struct recorded *r)
 {
-    struct br_error err = {0};
     const struct br_certificate certificate = certify(&r->step), most = limits();
     MUST(br_certificate_check(&certificate, &most, &err));
 }
@@ -316,7 +314,6 @@ TEST(test_not_finite)
 /* The verdict on each entry, at and above its limit, and NaN. */
 TEST(test_verdict)
 {
-    struct br_error err = {0};
     const struct br_certificate most = {1, 2, 3, 4, 5};
     struct br_certificate c = most;
     MUST(br_certificate_check(&c, &most, &err));

@@ -25,7 +25,6 @@ struct made_check {
 /* A rod that is pulled; to be cleared. It may be changed before it is checked. */
 static void made_create(struct made_check *m)
 {
-    struct br_error err = {0};
     *m = (struct made_check){.scene = br_test_bare()};
     m->scene.bending.modelled = false;
     m->scene.axial.load = br_test_load("sin(x)*(1 + t)");
@@ -47,7 +46,6 @@ static void made_clear(struct made_check *m)
 /* Runs the check, again if need be. */
 static void made_run(struct made_check *m, int threads)
 {
-    struct br_error err = {0};
     br_check_clear(&m->check);
     MUST(br_check_run(&m->of, 1, threads, NULL, &err));
 }
@@ -232,7 +230,6 @@ static void compare(const struct made_check *m, const struct br_old_check *old, 
                     enum br_severity expected, const char *subject)
 {
     OWNED(br_comparison) c;
-    struct br_error err = {0};
     MUST(br_compare(&m->check, 1, whole, old, &c, &err));
     const enum br_severity found = c.count ? c.difference[0].severity : BR_SAME;
     if (found != expected || (c.count && !strstr(c.difference[0].subject, subject)))
@@ -375,7 +372,6 @@ TEST(test_methods)
 TEST(test_missing_settings)
 {
     struct made_check m;
-    struct br_error err = {0};
     made_create(&m);
     made_run(&m, 1);
     OWNED(br_old_check) old = as_old(&m, "made");
@@ -400,7 +396,6 @@ TEST(test_missing_settings)
 TEST(test_names)
 {
     struct made_check m;
-    struct br_error err = {0};
     made_create(&m);
     m.check.name = "m\xe4"
                    "de";

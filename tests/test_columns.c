@@ -9,8 +9,6 @@
 #include "checks.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 /* Which columns of a table are read. */
 struct columns {
     const char *errors, *values;

@@ -173,7 +173,6 @@ TEST(test_marches)
 static void check_rest(const struct br_time_scheme *scheme, double stiffness, size_t steps)
 {
     static struct br_run_report report;
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.bending.modelled = false;
     scene.density = 1e-4;
@@ -296,7 +295,6 @@ TEST(test_touched)
 static double added(const struct br_scene *scene, size_t n, size_t steps)
 {
     const struct br_method method = br_method_default();
-    struct br_error err = {0};
     struct br_energy start, now;
     struct br_work work;
     struct br_energy_meter *meter;
@@ -319,7 +317,6 @@ static bool is_warned(const struct br_scene *scene, const char *contact, size_t 
 {
     struct br_method method = br_method_default();
     struct br_warnings w = {0};
-    struct br_error err;
     method.contact = br_contact_rule_find(contact);
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = 40, .steps = steps};
     MUST(br_check_ahead_cheaply(&o, &w, &err));
@@ -334,7 +331,6 @@ TEST(test_bounce)
     static const size_t steps[] = {200, 1000};
     char **name;
     size_t count, warned[2] = {0};
-    struct br_error err;
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
         OWNED(br_scene) scene = br_test_bundled(name[i]);

@@ -15,8 +15,6 @@
 #include "checks.h"
 #include "tables/document.h"
 
-static struct br_error err;
-
 /* What is awkward. A text stays on its line in all formats but JSON, and what cannot be seen
  * becomes visible. */
 static const char *const texts[] = {

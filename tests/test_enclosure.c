@@ -164,7 +164,6 @@ static size_t check_trees(struct br_test_random *r, enum br_operation o, int dep
         struct br_tree_builder b = {0};
         struct br_tree tree, copy;
         struct br_function f;
-        struct br_error err;
         const unsigned root = any_node(r, &b, o, depth);
         struct br_tree_builder again = {0};
         const unsigned second = br_tree_graft(&again, &b.tree, root);
@@ -208,7 +207,6 @@ TEST(test_kinks)
     struct br_test_random r = {7};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         OWNED(br_tree) tree;
-        struct br_error err;
         MUST(br_expression_parse(rows[i], &tree, &err));
         OWNED(br_function) f = br_test_function(rows[i]);
         for (size_t k = 0; k < cases(300); k++) {

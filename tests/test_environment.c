@@ -41,7 +41,6 @@ static struct br_method method_of(size_t solver, size_t scheme)
 
 static bool goes(const struct br_scene *s, size_t n, size_t steps, const struct br_method *method)
 {
-    struct br_error err;
     OWNED(br_march) * march;
     const enum br_status status = br_march_create(&march, s, n, steps, method, &err);
     return status == BR_OK;
@@ -108,7 +107,6 @@ enum { SCENES = sizeof scenes / sizeof *scenes };
 
 TEST(test_flags)
 {
-    struct br_error err = {0};
     char **names;
     size_t count;
     MUST(br_scene_list(&names, &count, &err));
@@ -185,7 +183,6 @@ static void certify(const struct br_scene *s, const char *name, const struct br_
                     const char *mode)
 {
     enum { N = 24, STEPS = 50 };
-    struct br_error err = {0};
     struct br_step_checker *checker;
     if (!goes(s, N, STEPS, method))
         return;
@@ -244,7 +241,6 @@ static struct br_scene any_scene(struct br_test_random *r)
 static void compare_units(const struct br_scene *s, const struct br_method *method, size_t n,
                           const struct br_units_change *u, bool exact)
 {
-    struct br_error err = {0};
     struct br_scene other;
     if (!goes(s, n, 30, method))
         return;

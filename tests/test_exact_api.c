@@ -32,7 +32,6 @@ static void refuses(const struct br_scene *scene, struct br_exact_options option
                     enum br_status expected, const char *text)
 {
     struct br_exact *exact = NULL;
-    struct br_error err = {0};
     assert_int_equal(br_exact_create(&exact, scene, &options, &err), expected);
     assert_null(exact);
     assert_non_null(strstr(err.message, text));
@@ -110,7 +109,7 @@ TEST(test_shared)
     br_scene_clear(&scene);
 }
 
-static enum br_status solve_and_project(const void *scene, struct br_error *err)
+static enum br_status solve_and_project(const void *scene, struct br_error *why)
 {
     const struct br_exact_options options = {.tolerance = 1e-4};
     const struct br_exact_quantity part = {BR_BENDING, false, 0};
@@ -118,11 +117,11 @@ static enum br_status solve_and_project(const void *scene, struct br_error *err)
     struct br_exact *exact = NULL;
     struct br_exact_state *state = NULL;
     struct br_exact_projection *projection = NULL;
-    enum br_status status = br_exact_create(&exact, scene, &options, err);
+    enum br_status status = br_exact_create(&exact, scene, &options, why);
     if (!status)
-        status = br_exact_state_create(&state, exact, err);
+        status = br_exact_state_create(&state, exact, why);
     if (!status)
-        status = br_exact_projection_create(&projection, exact, &part, &mesh, err);
+        status = br_exact_projection_create(&projection, exact, &part, &mesh, why);
     br_exact_projection_free(projection);
     br_exact_state_free(state);
     br_exact_free(exact);

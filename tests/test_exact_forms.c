@@ -370,7 +370,6 @@ TEST(test_stop)
         int left = asked;
         const struct br_exact_options options = {.stop = count_down, .stop_self = &left};
         struct br_exact *exact;
-        struct br_error err = {0};
         assert_int_equal(br_exact_create(&exact, &scene, &options, &err), BR_INTERRUPTED);
         assert_null(exact);
         assert_non_null(strstr(err.message, "interrupted"));

@@ -24,7 +24,6 @@ static struct br_scene rod(double density, double viscosity)
  * certain than `solve` wants them. */
 TEST(test_front)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = rod(0, 0.7);
     struct solved s;
     scene.axial.load = br_test_load("-3*step(2*t-x)");
@@ -109,7 +108,6 @@ TEST(test_mesh_of_means)
 /* A root is never smooth at 0: its last cell holds what it holds, unresolved. */
 TEST(test_mesh_of_a_root)
 {
-    struct br_error err;
     OWNED(br_function) f = br_test_function("sqrt(t)");
     struct br_list end[2] = {{0}};
     const struct br_list *ends = &end[BR_T];
@@ -128,7 +126,6 @@ TEST(test_mesh_of_a_root)
 /* A peak on a front, where nothing finds it: all of it in one box may be missed, or twice that. */
 TEST(test_mesh_of_a_front)
 {
-    struct br_error err;
     OWNED(br_function) f = br_test_function("step(x-t)*(1+exp(-((x-0.5003)/1e-5)^2))");
     struct br_list ends[2] = {{0}};
     OWNED(br_store) store = {0};
@@ -141,7 +138,6 @@ TEST(test_mesh_of_a_front)
 
 static struct br_data_mesh data_mesh_of(const struct br_scene *scene, enum br_field_kind kind)
 {
-    struct br_error err;
     struct br_data_mesh o;
     MUST(br_data_mesh_init(&o, scene, kind, &err));
     return o;

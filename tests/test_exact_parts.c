@@ -166,7 +166,6 @@ static void fill_kink(const struct br_spectral_elements *spectral, size_t kink, 
  * each element, and its square over all. */
 TEST(test_projection_of_elements)
 {
-    struct br_error err = {0};
     static const size_t elements[] = {1, 3, 10, 97};
     OWNED(br_store) store = {0};
     const struct br_spectral_elements spectral = new_elements(false, &store);
@@ -206,7 +205,6 @@ static void project_square(struct br_spectral_elements *spectral, size_t fronts,
     struct br_interval front[] = {{1.1, 1.1}};
     const struct br_breaks breaks = {.at = front, .count = fronts};
     static const size_t terms[] = {TERMS, TERMS, TERMS};
-    struct br_error err;
     struct br_quadrature q;
     br_spectral_init(spectral, beam, THREE, end, terms, store);
     br_quadrature_init(&q, spectral, 0, store);

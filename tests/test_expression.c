@@ -157,7 +157,6 @@ TEST(test_refusals)
 {
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         struct br_function f;
-        struct br_error err = {0};
         char column[32];
         snprintf(column, sizeof column, "at column %d: ", refusals[i].column);
         assert_int_equal(br_expression(refusals[i].text, &f, &err), BR_BAD_INPUT);
@@ -179,7 +178,6 @@ TEST(test_limits)
     static const char *const nest[] = {"(", "-", "x^", "sin(", "x?1:"};
     static char text[100000];
     struct br_function f;
-    struct br_error err;
     for (size_t i = 0; i < sizeof nest / sizeof *nest; i++) {
         repeat(text, nest[i], 20000);
         assert_int_equal(br_expression(text, &f, &err), BR_BAD_INPUT);
@@ -298,7 +296,6 @@ TEST(test_products)
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
         struct br_function f = br_test_function(loads[i].text);
         OWNED(br_load) load;
-        struct br_error err;
         size_t products = 0, mixed = 0;
         MUST(br_products(&f, &load, &err));
         for (size_t j = 0; j < BR_LOAD_TERMS; j++) {
@@ -315,17 +312,17 @@ TEST(test_products)
     }
 }
 
-static enum br_status use_expression(const void *text, struct br_error *err)
+static enum br_status use_expression(const void *text, struct br_error *why)
 {
     struct br_function f, copy = {0};
     OWNED(br_load) load = {0};
-    enum br_status status = br_expression(text, &f, err);
+    enum br_status status = br_expression(text, &f, why);
     if (!status)
-        status = br_function_clone(&f, &copy, err);
+        status = br_function_clone(&f, &copy, why);
     if (status)
         br_function_free(&f);
     else
-        status = br_products(&f, &load, err); /* which takes it over */
+        status = br_products(&f, &load, why); /* which takes it over */
     br_function_free(&copy);
     return status;
 }
@@ -339,7 +336,6 @@ static double tip_after(struct br_function f, bool products, enum br_field_kind 
 {
     struct br_scene s = br_test_bare();
     struct br_load *load = &s.field[kind].load;
-    struct br_error err;
     if (products)
         MUST(br_products(&f, load, &err));
     else

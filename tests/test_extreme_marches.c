@@ -157,7 +157,6 @@ static struct br_scene any_scene(struct br_test_random *r)
 /* bdf3 refuses vibration of little damping. */
 static bool goes(const struct br_scene *s, const struct br_method *m, size_t n, size_t steps)
 {
-    struct br_error err;
     return !m->scheme->needs_damping ||
            (!br_method_check(m, s, &err) &&
             !br_damping_check(m, s, n, s->duration / (double)steps, &err));
@@ -462,12 +461,12 @@ TEST(test_grazing)
 /* ---- beyond double precision ---- */
 
 static enum br_status end_of(const struct br_scene *s, const struct br_method *method,
-                             struct br_error *err)
+                             struct br_error *why)
 {
     OWNED(br_march) * march;
-    enum br_status status = br_march_create(&march, s, 21, 6, method, err);
+    enum br_status status = br_march_create(&march, s, 21, 6, method, why);
     for (int step = 0; step < 6 && !status; step++)
-        status = br_march_step(march, err);
+        status = br_march_step(march, why);
     return status;
 }
 
@@ -475,7 +474,6 @@ TEST(test_beyond_double)
 {
     for (size_t i = 0; i < solver_count() * (fixed_schemes() + 1); i++) {
         const struct br_method method = method_of(i % solver_count(), i / solver_count(), 1, 0);
-        struct br_error err = {0};
         OWNED(br_scene) s = loaded();
         /* An estimate of an error may say so first. */
         const char *const field = method.scheme->adaptive ? "" : "motion is lost to underflow";

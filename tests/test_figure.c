@@ -57,7 +57,6 @@ static struct br_figure made(size_t panels)
 /* What is stored: data, and the script unless golden/ has one of the kind. */
 static void print_data(FILE *out, struct br_figure f)
 {
-    struct br_error err = {0};
     MUST(br_figure_check(&f, &err));
     fprintf(out, "==== %s.dat\n", f.stem);
     br_figure_write_data(out, &f);
@@ -175,7 +174,6 @@ static bool draw(const struct br_figure *f, char svg[SVG])
     char folder[] = "/tmp/beamrate-figure-XXXXXX", path[128];
     bool missing;
     struct br_gnuplot gnuplot;
-    struct br_error err = {0};
     assert_non_null(mkdtemp(folder));
     write_file(folder, names[0], f, br_figure_write_data);
     write_file(folder, names[1], f, br_figure_write_script);
@@ -234,7 +232,6 @@ TEST(test_gap)
 
 TEST(test_no_memory)
 {
-    struct br_error err = {0};
     bool failed = true;
     for (long i = 0; failed; i++) {
         OWNED(br_figure) f = {0};
@@ -254,7 +251,6 @@ TEST(test_names)
 {
     static const char *const bad[] = {"", "a/b", "../a", "<a", "|a", "-a", "a\nb", " a"};
     OWNED(br_made_report) m;
-    struct br_error err = {0};
     struct br_figure f;
     br_made_report(&m, false);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -428,7 +424,6 @@ TEST(test_checks)
 
 static void print_floors(FILE *out)
 {
-    struct br_error err = {0};
     size_t n[] = {10, 100};
     double k[] = {0.1, 0.01, 0.001};
     struct br_floor floor[12];
@@ -454,7 +449,6 @@ static void print_floors(FILE *out)
 
 static void print_drifts(FILE *out)
 {
-    struct br_error err = {0};
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
     static char name[][4] = {"one", "two"};

@@ -29,7 +29,6 @@ TEST(test_floors)
     static const size_t steps[] = {100, 1000000};
     const struct br_extremes_job job = {
         .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 2, .step_count = 2};
-    struct br_error err = {0};
     OWNED(br_floors) f;
     MUST(br_floors_run(&f, false, &job, &err));
     MUST(br_floors_verdict(&f, &err));
@@ -92,7 +91,6 @@ TEST(test_verdicts_by_hand)
     };
     for (size_t i = 0; i < 3 * sizeof rows / sizeof *rows; i++) {
         const size_t row = i / 3;
-        struct br_error err = {0};
         struct br_named_method method[2];
         struct br_floor floor[3];
         MUST(br_named_method_read("plain", &method[0], &err));
@@ -135,7 +133,6 @@ TEST(test_meshes)
                                             .n = listed ? &million : NULL,
                                             .n_count = listed ? 1 : 0,
                                             .observer = &stops};
-        struct br_error err = {0};
         OWNED(br_floors) f;
         REFUSED(br_floors_run(&f, false, &job, &err), BR_INTERRUPTED, "interrupted");
         for (size_t i = 0; i < f.floors; i++) {
@@ -152,7 +149,6 @@ TEST(test_any_scene)
 {
     static const char *const names[] = {"vibration", "mms_pressed"};
     static const size_t n[] = {100, 1600}, steps[] = {5, 10};
-    struct br_error err = {0};
     for (size_t i = 0; i < 2; i++) {
         OWNED(br_scene) scene = br_test_bundled(names[i]);
         const struct br_scene *const one[] = {&scene};
@@ -173,7 +169,6 @@ TEST(test_refused)
     static const size_t steps[] = {1000000};
     const struct br_extremes_job job = {
         .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 1, .step_count = 1};
-    struct br_error err = {0};
     struct br_floors f;
     if (br_test_quick())
         SKIP("too long for this run");
@@ -193,7 +188,6 @@ TEST(test_drift)
     static const size_t steps[] = {1, 10, 3000, 10000};
     const struct br_extremes_job job = {
         .scene = both, .scenes = 2, .steps = steps, .step_count = 4};
-    struct br_error err = {0};
     OWNED(br_floors) d;
     MUST(br_floors_run(&d, true, &job, &err));
     MUST(br_floors_verdict(&d, &err));

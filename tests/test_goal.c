@@ -32,19 +32,19 @@ enum br_status __wrap_br_march_create(struct br_march **march, const struct br_s
                                       struct br_error *err);
 enum br_status __wrap_br_march_create(struct br_march **march, const struct br_scene *scene,
                                       size_t n, size_t steps, const struct br_method *method,
-                                      struct br_error *err)
+                                      struct br_error *why)
 {
     elements = n;
     now += set_up;
-    return __real_br_march_create(march, scene, n, steps, method, err);
+    return __real_br_march_create(march, scene, n, steps, method, why);
 }
 
 enum br_status __real_br_march_step(struct br_march *march, struct br_error *err);
 enum br_status __wrap_br_march_step(struct br_march *march, struct br_error *err);
-enum br_status __wrap_br_march_step(struct br_march *march, struct br_error *err)
+enum br_status __wrap_br_march_step(struct br_march *march, struct br_error *why)
 {
     const struct br_counts before = br_march_counts(march);
-    const enum br_status status = __real_br_march_step(march, err);
+    const enum br_status status = __real_br_march_step(march, why);
     const struct br_counts after = br_march_counts(march);
     now += work(elements, (double)(after.stages - before.stages) +
                               6 * (double)(after.set_ups - before.set_ups));
@@ -73,7 +73,6 @@ static struct br_trade *make(const struct br_scene *scene, struct br_trade_goal 
                              const struct br_trade_grid *grid, size_t methods,
                              enum br_status *status, struct br_error *failure)
 {
-    struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
     t->request = br_trial_request_default(scene);
@@ -101,7 +100,6 @@ static double exhaustive(const struct br_trade *t, double most)
     static const size_t k[] = {10, 12, 15, 20, 30, 40, 60, 80, 120, 240};
     enum { N = sizeof n / sizeof *n, K = sizeof k / sizeof *k };
     FREED struct br_trial *trial = calloc(ALL * N * K, sizeof *trial);
-    struct br_error err = {0};
     size_t count = 0;
     assert_non_null(trial);
     for (size_t c = 0; c < t->methods.count; c++)
@@ -133,7 +131,6 @@ TEST(test_promise)
         for (size_t e = 0; e < sizeof errors / sizeof *errors; e++) {
             if ((s + e) % 2 == 0 && !br_test_long())
                 continue;
-            struct br_error err = {0};
             enum br_status status;
             OWNED(br_scene) scene = br_test_bundled(scenes[s]);
             struct br_trade *t = make(&scene, (struct br_trade_goal){.error = errors[e]},
@@ -188,7 +185,6 @@ TEST(test_goals)
         {"example3", {.error = 1e-16}, 0, "an error of"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         enum br_status status;
         OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
         struct br_trade *t = make(&scene, rows[i].goal, &(struct br_trade_grid){0},
@@ -213,7 +209,6 @@ TEST(test_lists_are_kept)
 {
     static const size_t n[] = {40, 20}, steps[] = {5, 7};
     static const double tolerance[] = {2e-3, 3e-7};
-    struct br_error err = {0};
     enum br_status status;
     OWNED(br_scene) scene = br_test_bundled("example2");
     for (int kind = 0; kind < 4; kind++) {

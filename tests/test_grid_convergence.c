@@ -15,8 +15,6 @@
 
 enum { MOST = 12 };
 
-static struct br_error err;
-
 /* h of two-dimensional grids of so many cells, equation (2) of Celik et al., from coarse to fine.
  */
 static void sizes(const double *cells, size_t count, double *h)

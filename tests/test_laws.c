@@ -83,7 +83,6 @@ TEST(test_models)
         assert_true(m->bound(&f, 0) == 0);
     }
     struct br_scene s = br_test_bare();
-    struct br_error err;
     s.friction.law = 1000000;
     REFUSED(br_scene_check(&s, &err), BR_BAD_INPUT, "has no bound");
 }
@@ -340,7 +339,6 @@ TEST(test_contraction)
  * an error of lambda changes the velocity by z_tip times that, and each step's may stay. */
 static void compare_marches(const char *name, const struct br_friction_rule *rule)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled(name);
     struct br_method method = br_method_default();
     OWNED(br_march) *march = br_test_march(&scene, 50, 200, &method);
@@ -391,7 +389,6 @@ TEST(test_no_convergence)
 
 TEST(test_refusals)
 {
-    struct br_error err = {0};
     const struct {
         const char *rule;
         struct br_iteration iteration;
@@ -423,7 +420,6 @@ TEST(test_refusals)
 /* A march whose iterations do not end says so; one with which they cannot is refused. */
 TEST(test_failing_march)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     EACH_THAT_ITERATES(rule)
     {

@@ -48,7 +48,6 @@ static const struct br_field_solver *functions(const struct br_linear_solver *so
 
 static void *created(const struct br_linear_solver *solver, const struct problem *p)
 {
-    struct br_error err = {0};
     void *self;
     MUST(functions(solver, p)->create(&p->field, NULL, &self, &err));
     return self;
@@ -58,7 +57,6 @@ static void *created(const struct br_linear_solver *solver, const struct problem
 static void take_step(const struct br_field_solver *f, void *self, const struct problem *p,
                       size_t step)
 {
-    struct br_error err = {0};
     const struct br_drive drive = {
         .vector = p->vector, .factor = cos((double)step), .changed = step == 1};
     double velocity;
@@ -95,7 +93,6 @@ static void check_step_lengths(const struct br_linear_solver *solver, const stru
     const struct br_field_solver *f = functions(solver, p);
     struct problem other = *p;
     other.field.k *= 0.29;
-    struct br_error err = {0};
     void *moved = created(solver, p), *fresh = created(solver, p);
     void *there = created(solver, &other);
     const double compliance = f->tip_compliance(moved);
@@ -183,7 +180,6 @@ TEST(test_size)
 
 static void refuses(const struct problem *p, const char *text)
 {
-    struct br_error err = {0};
     void *self;
     const struct br_field_solver *f = functions(&br_umfpack, p);
     REFUSED(f->create(&p->field, NULL, &self, &err), BR_SINGULAR, text);
@@ -198,7 +194,6 @@ TEST(test_refusals)
         struct problem p = random_problem(&r);
         p.field.degree = 1;
         void *self = created(&br_umfpack, &p);
-        struct br_error err = {0};
         REFUSED(functions(&br_umfpack, &p)->set_step(self, NAN, &err), BR_SINGULAR,
                 "the matrix has an entry");
         functions(&br_umfpack, &p)->free(self);
@@ -229,7 +224,6 @@ TEST(test_too_fine)
 static void refuses_march(const struct br_scene *scene, const struct br_method *method, size_t n,
                           size_t steps, const char *text)
 {
-    struct br_error err = {0};
     struct br_march *march;
     REFUSED(br_march_create(&march, scene, n, steps, method, &err), BR_BAD_INPUT, text);
     assert_null(march);
@@ -276,7 +270,6 @@ TEST(test_marches_refused)
 TEST(test_not_finite)
 {
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
-        struct br_error err = {0};
         struct br_method method = br_method_default();
         method.solver = *s;
         struct br_scene scene = br_test_bare();

@@ -28,7 +28,6 @@ static double largest(const double *value, size_t size)
 static size_t compare(const struct br_field *field, struct br_function *f, struct br_load_fit *fit)
 {
     enum { TIMES = 101 };
-    struct br_error err = {0};
     const size_t size = br_field_size(field);
     double *fitted = malloc(2 * size * sizeof *fitted), *direct = fitted + size;
     size_t taken = 0;
@@ -61,7 +60,6 @@ TEST(test_smooth)
         "sin(7*x - 5*t)", "1e-200*sqrt(4 + x + t)", "-1e200*cos(3*x*t)",
     };
     static const size_t n[] = {1000, 1023, 3777};
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof smooth / sizeof *smooth; i++)
         for (size_t j = 0; j < 9; j++) {
             const struct br_field field =
@@ -89,7 +87,6 @@ TEST(test_refused)
         "1 + exp(-((x - t - 1/7)/1e-4)^2)",
         "sin(1e5*x*t)",
     };
-    struct br_error err = {0};
     const struct br_field field = field_of(BR_AXIAL, 1000, 1);
     struct br_load_fit *fit;
     for (size_t i = 0; i < sizeof rough / sizeof *rough; i++) {
@@ -110,7 +107,6 @@ TEST(test_refused)
 /* Where f is far smaller than elsewhere, or nothing is proved, the direct way is taken. */
 TEST(test_direct)
 {
-    struct br_error err = {0};
     const struct br_field field = field_of(BR_BENDING, 1000, 1);
     OWNED(br_function) f = br_test_function("sin(x*t)*exp(20*t)");
     struct br_load_fit *fit;
@@ -127,11 +123,11 @@ TEST(test_direct)
     br_load_fit_free(fit);
 }
 
-static enum br_status attempt(const void *data, struct br_error *err)
+static enum br_status attempt(const void *data, struct br_error *why)
 {
     const struct br_field field = field_of(BR_BENDING, 500, 1);
     struct br_load_fit *fit;
-    const enum br_status status = br_load_fit_create(&field, data, duration, &fit, err);
+    const enum br_status status = br_load_fit_create(&field, data, duration, &fit, why);
     br_load_fit_free(fit);
     return status;
 }

@@ -12,7 +12,6 @@ static struct br_warnings warnings_of(const struct br_scene *scene, size_t n, si
     const struct br_method method = br_method_default();
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = n, .steps = steps};
     struct br_warnings w = {0};
-    struct br_error err;
     MUST(br_check_loads(&o, &w, &err));
     return w;
 }
@@ -135,7 +134,6 @@ TEST(test_jump_on_level)
         method.scheme = br_time_scheme_find(by[i].scheme);
         const struct br_planned_march o = {.scene = &s, .method = &method, .n = 10, .steps = 100};
         struct br_warnings w = {0};
-        struct br_error err;
         MUST(br_check_loads(&o, &w, &err));
         const struct br_warning *one = br_test_warning(&w, BR_WARN_LOAD_TIME);
         if (!is_said(&w, BR_WARN_LOAD_TIME, by[i].said) ||
@@ -151,7 +149,6 @@ TEST(test_bundled)
 {
     char **name;
     size_t count;
-    struct br_error err;
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
         OWNED(br_scene) scene = br_test_bundled(name[i]);

@@ -122,7 +122,6 @@ TEST(test_jump_and_blow)
 /* bdf3 is not stable on the imaginary axis: within 800 steps such a beam is off by its own size. */
 TEST(test_undamped)
 {
-    struct br_error err = {0};
     struct br_march *march;
     struct br_scene scene = br_test_bare();
     struct br_method method = br_test_method(NULL, "implicit", NULL);

@@ -27,7 +27,6 @@ TEST(test_worst)
                 {1e-15, NAN, 1},   {NAN, 0.5, 2},  {0.5, NAN, 2}};
     OWNED(br_scene) scene = br_test_bundled("example2");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         struct br_run_report report;
         const struct br_run_request request = {.scene = &scene,
                                                .method = br_test_method(NULL, NULL, NULL),

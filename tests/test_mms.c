@@ -71,7 +71,6 @@ TEST(test_refusals)
 
 static struct br_scene scene_of(const char *text)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     MUST(br_scene_read_text("made.yaml", text, &scene, &err));
     return scene;
@@ -147,7 +146,6 @@ TEST(test_derivatives)
         {"(x + t - 1)^2*step(x + t - 1)", {1, 1}, 0.5, 0.5, 2},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         struct br_function f = br_test_function(rows[i].text), d;
         MUST(br_function_derivative(&f, rows[i].order, &d, &err));
         CLOSE(br_function_at(&d, rows[i].x, rows[i].t), rows[i].expected, 1e-9);
@@ -206,7 +204,6 @@ static const struct {
 TEST(test_given)
 {
     for (size_t i = 0; i < sizeof solutions / sizeof *solutions; i++) {
-        struct br_error err = {0};
         OWNED(br_function) f = br_test_function(solutions[i].text);
         const struct br_given s = {&f, solutions[i].kind, 1, 1};
         if (solutions[i].message)
@@ -224,7 +221,6 @@ TEST(test_projection)
 {
     static const size_t mesh[] = {5, 3};
     static const double factor[] = {9, 6, 6}; /* of exp(x) and all its derivatives */
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.length = 2;
     scene.duration = 6;
@@ -269,7 +265,6 @@ TEST(test_exact)
         scene_of(TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
                            "  solution: x^2*(3 - x)*(1 - 2*t) [m]\n" CONTACT COULOMB);
     static const size_t n[] = {3, 7}, steps[] = {5, 40};
-    struct br_error err = {0};
     OWNED(br_study) s = study_of(&scene, n, steps);
     MUST(br_study_run(&s, 1, 2, NULL, &err));
     for (size_t c = 0; c < 4; c++)
@@ -286,7 +281,6 @@ TEST(test_exact)
 TEST(test_threads)
 {
     static const size_t n[] = {4, 6}, steps[] = {20, 30};
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("mms_opening");
     double one[4] = {0};
     for (int threads = 1; threads <= 4; threads++) {
@@ -310,7 +304,6 @@ TEST(test_coulomb_limit)
     } rows[] = {{"mms_opening", 2}, {"mms_stick", 4}};
     static const size_t n[] = {96, 128}, steps = 1000;
     for (size_t i = 0; i < 2 && !br_test_quick(); i++) {
-        struct br_error err = {0};
         OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
         OWNED(br_study) s = br_test_study(&scene, &br_reference_fine, 2, n, 1, &steps);
         s.method = s.reference_method = br_test_method(NULL, "implicit", NULL);
@@ -324,14 +317,14 @@ TEST(test_coulomb_limit)
 
 /* ---- out of memory ---- */
 
-static enum br_status attempt(const void *text, struct br_error *err)
+static enum br_status attempt(const void *text, struct br_error *why)
 {
     static const size_t n[] = {2, 3}, steps[] = {2, 3};
     OWNED(br_scene) scene;
-    enum br_status status = br_scene_read_text("made.yaml", text, &scene, err);
+    enum br_status status = br_scene_read_text("made.yaml", text, &scene, why);
     if (!status) {
         OWNED(br_study) s = study_of(&scene, n, steps);
-        status = br_study_run(&s, 1, 1, NULL, err);
+        status = br_study_run(&s, 1, 1, NULL, why);
     }
     return status;
 }
@@ -370,7 +363,6 @@ static const struct forced {
 TEST(test_tip_breaks)
 {
     for (size_t i = 0; i < sizeof forced / sizeof *forced; i++) {
-        struct br_error err = {0};
         OWNED(br_scene) s = scene_of(forced[i].text);
         struct br_breaks breaks = {0};
         const struct br_function *f = &s.field[forced[i].kind].tip_force;

@@ -199,7 +199,6 @@ static void check_meshes(struct trial *t, enum br_layout layout)
 
 static void check_row(struct trial *t)
 {
-    struct br_error err = {0};
     OWNED(br_store) store = {0};
     const struct br_mesh_list root = {1, &sequences[t->row].finest},
                               levels = {sequences[t->row].count, sequences[t->row].n};
@@ -233,7 +232,6 @@ TEST(test_refusals)
     } rows[] = {{{4, 5}, "n = 5 does not divide the reference's 12"}, {{0, 1}, "n is 0"}};
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
     for (size_t i = 0; i < 2; i++) {
-        struct br_error err = {0};
         struct br_nested_meshes *nested;
         OWNED(br_store) store = {0};
         REFUSED(br_nested_meshes_create(&nested, 2, &twelve, &(struct br_mesh_list){2, rows[i].n},

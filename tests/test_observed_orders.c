@@ -12,8 +12,6 @@
 enum { ROWS = 4, COLUMNS = 4, CELLS = ROWS * COLUMNS };
 static const size_t n[ROWS] = {25, 50, 100, 200}, steps[COLUMNS] = {100, 200, 400, 800};
 
-static struct br_error err;
-
 /* A study of errors a h^p + b k^q of a rod, and the differences of its meshes. */
 struct made {
     struct br_scene scene;

@@ -11,8 +11,6 @@
 #include "orders/line/line_order.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 static enum br_status read_table(const char *text, const char *errors, const char *values,
                                  struct br_numbers *numbers)
 {

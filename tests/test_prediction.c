@@ -53,7 +53,6 @@ static void count_cell(struct tally *t, const struct br_study *s, const struct b
                        double budget)
 {
     static const enum br_part parts[2] = {BR_PART_AXIAL, BR_PART_BENDING};
-    struct br_error err = {0};
     struct br_prediction p;
     const struct br_planned_march o = {.scene = s->scene,
                                        .method = &s->method,
@@ -78,7 +77,6 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
                     const struct br_study *shape, double budget)
 {
     struct br_named_method c;
-    struct br_error err = {0};
     MUST(br_named_method_read(name, &c, &err));
     OWNED(br_study) s = *shape;
     s.scene = scene;
@@ -211,7 +209,6 @@ static struct br_prediction predict(const struct br_scene *scene, const struct b
                                     size_t n, size_t k)
 {
     const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
-    struct br_error err = {0};
     struct br_prediction p;
     MUST(br_predict(&o, &p, &err));
     return p;
@@ -226,7 +223,6 @@ TEST(test_layer)
                                "  viscosity: 200 N m^2 s\n  velocity: 0.01*x^2 [m/s]\n"
                                "  velocity_slope: 0.02*x [1/s]\n";
     OWNED(br_scene) s;
-    struct br_error err = {0};
     struct tally t = {0};
     MUST(br_scene_read_text("layer", text, &s, &err));
     static const size_t few[] = {8, 32}, some[] = {1, 4, 16};
@@ -253,7 +249,6 @@ static struct br_warnings warnings_of(const struct br_scene *scene, const struct
 {
     const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_warnings w = {0};
-    struct br_error err = {0};
     MUST(br_check_ahead(&o, &w, &err));
     return w;
 }
@@ -425,7 +420,6 @@ static const struct {
 static struct br_planned_march hard_march(size_t i, struct br_scene *s, struct br_named_method *c,
                                           struct br_prediction *p)
 {
-    struct br_error err = {0};
     char text[1000];
     snprintf(text, sizeof text, "title: t\n%s\n", hard[i].text);
     MUST(br_scene_read_text("hard", text, s, &err));
@@ -437,7 +431,6 @@ static struct br_planned_march hard_march(size_t i, struct br_scene *s, struct b
 TEST(test_hard)
 {
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
-        struct br_error err = {0};
         struct br_named_method c;
         OWNED(br_scene) s;
         struct br_prediction p;
@@ -464,7 +457,6 @@ TEST(test_hard_extrapolated)
 {
     size_t known = 0;
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
-        struct br_error err = {0};
         struct br_named_method c;
         OWNED(br_scene) s;
         struct br_prediction p;

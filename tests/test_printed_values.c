@@ -34,10 +34,10 @@ struct watched {
 };
 
 static enum br_status write_fields(void *self, const struct br_march *march,
-                                   const struct br_history_row *row, struct br_error *err)
+                                   const struct br_history_row *row, struct br_error *why)
 {
     struct watched *w = self;
-    (void)err;
+    (void)why;
     br_fields_add(&w->fields, march, row);
     return BR_OK;
 }
@@ -78,7 +78,6 @@ static void march_and_write(struct watched *w)
 {
     const struct br_provenance provenance = {
         .version = "1", .commit = "c", .command_line = "beamrate run", .scene_text = "title: a\n"};
-    struct br_error err = {0};
     char path[64];
     const struct br_history_observer output[] = {
         br_history_recorder(&w->record, ELEMENTS),

@@ -90,7 +90,6 @@ static void has_entries(const char *name, size_t count)
 }
 
 static struct br_numbers numbers; /* of the last run */
-static struct br_error err;
 
 static void run(const struct br_orders_request *p)
 {

@@ -138,7 +138,6 @@ TEST(test_unbounded)
     struct br_function f = br_test_function("1/(x^2 - 2*x*t + t^2 + 1e-9)");
     struct br_interval value;
     struct br_box where;
-    struct br_error err;
     assert_int_equal(br_prove_bounded(&f, unit, &value, &where), BR_UNBOUNDED);
     br_function_free(&f);
     static const struct br_function_ops none = {0};
@@ -153,14 +152,14 @@ TEST(test_unbounded)
 }
 
 /* A rod of 1 m with that load in line 8. */
-static enum br_status read_load(const char *load, struct br_scene *scene, struct br_error *err)
+static enum br_status read_load(const char *load, struct br_scene *scene, struct br_error *why)
 {
     char text[1024];
     snprintf(text, sizeof text,
              "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n"
              "  stiffness: 1 N\n  viscosity: 1 N s\n  load: %s\n",
              load);
-    return br_scene_read(br_test_scene_file(text), scene, err);
+    return br_scene_read(br_test_scene_file(text), scene, why);
 }
 
 /* A scene with one is refused, with the place. */
@@ -184,7 +183,6 @@ TEST(test_scene)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         OWNED(br_scene) scene;
-        struct br_error err = {0};
         REFUSED(read_load(rows[i].load, &scene, &err), BR_BAD_INPUT, rows[i].message);
         assert_non_null(strstr(err.message, ".yaml:8"));
     }
@@ -199,7 +197,6 @@ TEST(test_bend_at_zero)
     struct br_test_random random = {3};
     for (size_t i = 0; i < 100; i++) {
         OWNED(br_scene) scene = {0};
-        struct br_error err = {0};
         char formula[100], load[120];
         /* NOLINTNEXTLINE: the formats are those above */
         snprintf(formula, sizeof formula, bent[i % 4], br_test_uniform(&random, 0.8, 1.6));
@@ -239,7 +236,6 @@ TEST(test_breaks)
     for (size_t i = 0; i < sizeof broken / sizeof *broken; i++) {
         OWNED(br_function) f = br_test_function(broken[i].text);
         struct br_breaks b = {0};
-        struct br_error err;
         MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
         if (b.count != broken[i].count)
             fail_msg("%s: %zu breaks", broken[i].text, b.count);
@@ -256,7 +252,6 @@ TEST(test_many_breaks)
 {
     struct br_function f = br_test_function("step(sin(1000*pi*t))");
     struct br_breaks b = {0};
-    struct br_error err;
     MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
     assert_int_equal(b.count, 999);
     for (size_t k = 0; k < b.count; k++) {
@@ -286,7 +281,6 @@ TEST(test_fronts)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         OWNED(br_function) f = br_test_function(rows[i].text);
         struct br_breaks b = {0};
-        struct br_error err;
         MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
         assert_int_equal(b.count, 0);
         assert_int_equal(b.moving, i != 3);
@@ -346,7 +340,6 @@ static size_t check_mesh(const char *text, double tolerance)
     OWNED(br_function) f = br_test_function(text);
     const struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = tolerance};
     struct br_mesh m;
-    struct br_error err;
     MUST(br_resolve(&f, BR_T, unit, &aim, &m, &err));
     assert_true(m.at[0] == 0 && m.at[m.count] == 1);
     double missed = 0;
@@ -398,7 +391,6 @@ TEST(test_both)
     const struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-8};
     struct br_function f = br_test_function("sin(3*x)*cos(7*t)*exp(-x*t)");
     struct br_mesh m;
-    struct br_error err;
     MUST(br_resolve(&f, BR_T, unit, &aim, &m, &err));
     AT_MOST((double)m.count, 32);
     br_mesh_free(&m);

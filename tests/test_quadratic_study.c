@@ -25,7 +25,6 @@ static void check_reference(const struct br_reference *reference_kind, const cha
 {
     enum { N = 3, LEVELS = 8 };
     static const size_t mesh = N;
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled(name);
     double values[2][3 * N], square[2][BR_MEASURES];
     struct br_view view[2];
@@ -115,7 +114,6 @@ TEST(test_look)
 TEST(test_other_degree)
 {
     static const size_t n = 4, steps = 10;
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_study s = br_test_study(&scene, &br_reference_fine, 1, &n, 1, &steps);
     s.method = method_of(NULL);
@@ -132,7 +130,6 @@ TEST(test_one_element)
     assert_int_equal(br_measure_size(elements, BR_DISPLACEMENT, 9), 27);
     assert_int_equal(br_measure_size(elements, BR_STRAIN_RATE, 1), 2);
     static const size_t n = 1, steps = 4;
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_study chain[3];
     chain[0] = br_test_study(&scene, &br_reference_fine, 1, &n, 1, &steps);

@@ -444,7 +444,6 @@ TEST(test_boxes)
         const char *const b = bars[i];
         char text[200];
         OWNED(br_fields) f;
-        struct br_error err;
         snprintf(text, sizeof text, "%sn%se%s\n\u2550\u2550\u2500\n%s10%s1%s\n%s20%s.2%s\n", b, b,
                  b, b, b, b, b, b, b);
         MUST(br_fields_read(text, "t", NULL, &f, &err));
@@ -485,14 +484,12 @@ static const char *table_of(int rows, int columns)
 static void refuse(const char *text, const char *why)
 {
     OWNED(br_fields) fields;
-    struct br_error err = {0};
     REFUSED(br_fields_read(text, "t", NULL, &fields, &err), BR_BAD_INPUT, why);
 }
 
 TEST(test_large_tables)
 {
     struct br_fields fields;
-    struct br_error err = {0};
     MUST(br_fields_read(table_of(10000, 4), "t", NULL, &fields, &err));
     assert_int_equal(fields.rows, 10000);
     assert_string_equal(fields.field[39999], "10003");
@@ -511,7 +508,6 @@ static bool always(__attribute__((unused)) void *self)
 TEST(test_interrupted)
 {
     OWNED(br_fields) fields;
-    struct br_error err = {0};
     const struct br_observer observer = {.stop = always};
     assert_int_equal(br_fields_read("h,e\n1,2\n", "t", &observer, &fields, &err), BR_INTERRUPTED);
 }

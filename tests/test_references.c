@@ -96,7 +96,6 @@ static void run_by(const struct br_reference *reference_kind, const struct br_sc
                    struct br_study s[NORMS])
 {
     static const size_t n[] = {7, 12}, steps[] = {40, 100};
-    struct br_error err = {0};
     s[0] = br_test_study(scene, reference_kind, 2, n, 2, steps);
     br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));

@@ -35,7 +35,6 @@ static void write_script(const char *folder, const char *name, const char *text)
 
 static void check_missing(const char *folder)
 {
-    struct br_error err = {0};
     struct br_gnuplot g;
     bool missing = false;
     FREED char *path = strdup(getenv("PATH"));
@@ -50,7 +49,6 @@ TEST(test_side_by_side)
 {
     enum { SCRIPTS = 4, BAD = 2 };
     struct br_gnuplot at_work[SCRIPTS];
-    struct br_error err = {0};
     char folder[64], script[64], path[256];
     bool missing = false;
     make_folder(folder);

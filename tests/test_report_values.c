@@ -32,8 +32,6 @@ static const struct br_provenance provenance = {.version = "1",
                                                 .scene_path = "p",
                                                 .scene_text = "t"};
 
-static struct br_error err;
-
 /* ---- check ---- */
 
 /* What it has of a field of its method over time. */

@@ -53,7 +53,6 @@ struct shape {
 
 static struct br_piecewise *project(const struct shape *s, struct br_store *store)
 {
-    struct br_error err = {0};
     struct br_piecewise *out = NULL;
     struct br_spectral_elements *spectral = br_store_take(store, 1, sizeof *spectral);
     assert_non_null(spectral);
@@ -292,7 +291,6 @@ static void check_stages(const struct br_radau *radau, const struct br_stage_sys
  * each instruction set gives the same bits. */
 TEST(test_stages)
 {
-    struct br_error err = {0};
     struct br_test_random random = {5};
     struct br_radau radau;
     double a[MODES], pivot[2 * S * MODES], r[S * MODES], y[S * MODES], portable[S * MODES];

@@ -24,7 +24,6 @@ static double energy_of(const struct br_field *f, enum br_element_matrix matrix,
 /* On L = 2: u = x, w = x^2 lie in the spaces, so their energies are exact. */
 TEST(test_energy_of_states)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.length = 2;
     scene.density = 3;
@@ -55,7 +54,6 @@ TEST(test_energy_of_states)
 static struct br_run_report run(const struct br_scene *scene, size_t n, size_t steps,
                                 const char *contact)
 {
-    struct br_error err = {0};
     struct br_run_report report;
     const struct br_run_request request = {
         .scene = scene,
@@ -72,7 +70,6 @@ static struct br_run_report run(const struct br_scene *scene, size_t n, size_t s
  */
 TEST(test_energy_that_says_nothing)
 {
-    struct br_error err = {0};
     struct br_run_report report;
     OWNED(br_scene) s = br_test_bare();
     s.length = 7;
@@ -183,7 +180,6 @@ TEST(test_events)
 static void check_rows_and_looks(int degree)
 {
     enum { N = 10 };
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("initial_data");
     struct br_method method = br_method_default();
     method.axial_degree = degree;
@@ -248,18 +244,17 @@ struct stop_at {
 };
 
 static enum br_status full_disk(void *self, const struct br_march *march,
-                                const struct br_history_row *row, struct br_error *err)
+                                const struct br_history_row *row, struct br_error *why)
 {
     (void)march;
     struct stop_at *s = self;
     s->told = row->step;
-    return row->step == s->step ? br_fail(err, BR_IO, "the disk is full") : BR_OK;
+    return row->step == s->step ? br_fail(why, BR_IO, "the disk is full") : BR_OK;
 }
 
 /* An observer's failure is the run's; a march's is a result. */
 TEST(test_failures)
 {
-    struct br_error err = {0};
     struct br_run_report report;
     OWNED(br_scene) scene = br_test_bare();
     scene.axial.load = br_test_load("sqrt(0.705 - t)");
@@ -300,7 +295,6 @@ static const struct br_model_row *find(const struct br_run_report *p, const char
 
 TEST(test_model)
 {
-    struct br_error err = {0};
     struct br_run_report p;
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_run_request request = {

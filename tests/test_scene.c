@@ -13,9 +13,9 @@
 #include "study/verify/verify.h"
 #include "support.h"
 
-static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
+static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *why)
 {
-    return br_scene_read(br_test_scene_file(text), scene, err);
+    return br_scene_read(br_test_scene_file(text), scene, why);
 }
 
 /* A good scene, which the tables below spoil in one place: lines 1 to 4, axial 5 to 8,
@@ -85,7 +85,6 @@ TEST(test_bent)
                                        "  displacement: 1e9*(x - 0.7)*step(x - 0.7) [m]\n",
                                        "  velocity: step(x - 0.4) [m/s]\n"};
     for (size_t i = 0; i < sizeof bent / sizeof *bent; i++) {
-        struct br_error err = {0};
         OWNED(br_scene) scene;
         char text[400];
         snprintf(text, sizeof text, TOP "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n%s",
@@ -98,7 +97,6 @@ TEST(test_bent)
 TEST(test_mangled)
 {
     char text[4096];
-    struct br_error err = {0};
     struct br_scene scene;
     spoilt(0, NULL, text, sizeof text);
     const size_t length = strlen(text);
@@ -118,7 +116,6 @@ TEST(test_mangled)
 
 TEST(test_no_file)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     REFUSED(br_scene_read("/nowhere/at/all.yaml", &scene, &err), BR_BAD_INPUT, "/nowhere/at/all");
     br_scene_clear(&scene);
@@ -198,7 +195,6 @@ static const struct {
 TEST(test_loads)
 {
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
-        struct br_error err = {0};
         OWNED(br_scene) s;
         char text[4096], line[256];
         snprintf(line, sizeof line, "  load: %s", loads[i].load);
@@ -215,7 +211,6 @@ TEST(test_loads)
 
 TEST(test_good_initial_data)
 {
-    struct br_error err = {0};
     OWNED(br_scene) s;
     char text[4096];
     spoilt(12,
@@ -236,7 +231,6 @@ TEST(test_good_initial_data)
 TEST(test_damping_ratio)
 {
     const double root[] = {[BR_AXIAL] = M_PI_2, [BR_BENDING] = 1.8751040687119611664};
-    struct br_error err = {0};
     OWNED(br_scene) s;
     MUST(read_text("title: T\nlength: 30 cm\nduration: 1 s\nyoung: 70 GPa\n"
                    "mass_density: 2.7 g/cm^3\nsection: tube 20 mm x 1 mm\n"
@@ -267,7 +261,6 @@ TEST(test_check)
                                    &s.contact.stiffness,
                                    &s.friction.coefficient,
                                    &s.friction.regularisation};
-        struct br_error err = {0};
         MUST(br_scene_check(&s, &err));
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
             const double value = *numbers[i];
@@ -298,7 +291,6 @@ static char *stated(struct br_scene *scene)
 /* A scene with `set` is that of the file which says the same, and so is the text that it leaves. */
 static void try_set(const char *text, const char *set, const char *same)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     char title[400], *left = NULL;
     const struct br_scene_asked asked = {.set = set, .text = &left};
@@ -440,7 +432,6 @@ TEST(test_sets_refused)
     char text[4096];
     spoilt(0, NULL, text, sizeof text);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         OWNED(br_scene) scene;
         char *left = NULL;
         const struct br_scene_asked asked = {.set = rows[i].set, .text = &left};
@@ -453,7 +444,6 @@ TEST(test_sets_refused)
 /* What is expected is set, too; it has no line in the file then. */
 TEST(test_set_expectations)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene;
     OWNED(br_verify) verify;
     MUST(br_verify_read("file.yaml",

@@ -214,7 +214,6 @@ TEST(test_adaptive_errors)
 
 static void advance_field(struct br_march *march, enum br_field_kind kind, size_t count)
 {
-    struct br_error err = {0};
     for (size_t i = 0; i < count; i++)
         MUST(br_march_step_field(march, kind, &err));
 }
@@ -222,7 +221,6 @@ static void advance_field(struct br_march *march, enum br_field_kind kind, size_
 /* The axial field ahead by up to four steps, in turns of different length. */
 static void march_one_by_one(struct br_march *march, size_t steps)
 {
-    struct br_error err = {0};
     MUST(br_march_allow_lead(march, 4, &err));
     size_t axial = 0, bending = 0;
     for (size_t turn = 1; bending < steps; turn = turn % 4 + 1) {
@@ -261,7 +259,6 @@ static void study_by(const struct br_scene *scene, const struct br_method *metho
                      double error[4])
 {
     static const size_t meshes[] = {4, 8}, steps[] = {50, 100};
-    struct br_error err = {0};
     OWNED(br_study) s = br_test_study(scene, &br_reference_fine, 2, meshes, 2, steps);
     s.method = *method;
     s.reference = (struct br_resolution){16, 200};

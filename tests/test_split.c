@@ -13,7 +13,6 @@
 static struct br_split split_of(const struct br_scene *scene, size_t n, size_t steps,
                                 struct br_method method)
 {
-    struct br_error err = {0};
     struct br_split split = {
         .scene = scene,
         .method = method,
@@ -114,7 +113,6 @@ TEST(test_links)
  * the run: its own round-off may be as large as that, and so may that of the march beside it. */
 TEST(test_floor_of_two_marches)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     struct br_study study =
@@ -137,7 +135,6 @@ TEST(test_floor_of_two_marches)
  * is not is above it. */
 TEST(test_whole)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     for (size_t m = 0; m < split.norms; m++) {
@@ -279,7 +276,6 @@ TEST(test_iteration)
 
 TEST(test_refused)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example1");
     struct br_split split = {
         .scene = &scene,

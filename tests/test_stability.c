@@ -16,10 +16,10 @@ static const size_t few_n[] = {10}, few_steps[] = {10, 40, 120};
 
 /* A run of a scene on 10 elements by methods, separated by commas; clear it. */
 static enum br_status run(struct br_stability *s, const struct br_scene *scene, const char *methods,
-                          struct br_error *err)
+                          struct br_error *why)
 {
     struct br_named_methods named;
-    assert_int_equal(br_named_methods_read(methods, &named, err), BR_OK);
+    assert_int_equal(br_named_methods_read(methods, &named, why), BR_OK);
     const struct br_extremes_job job = {.scene = &scene,
                                         .scenes = 1,
                                         .n = few_n,
@@ -27,14 +27,13 @@ static enum br_status run(struct br_stability *s, const struct br_scene *scene, 
                                         .steps = few_steps,
                                         .step_count = 3,
                                         .methods = &named};
-    return br_stability_run(s, &job, err);
+    return br_stability_run(s, &job, why);
 }
 
 /* No march breaks: but those that bdf3 refuses. */
 static void check_sound(const char *name, const char *methods)
 {
     OWNED(br_scene) scene = br_test_bundled(name);
-    struct br_error err = {0};
     OWNED(br_stability) s;
     MUST(run(&s, &scene, methods, &err));
     for (size_t i = 0; i < s.planes; i++) {
@@ -52,7 +51,6 @@ TEST(test_schemes_without_a_limit)
 {
     char **name;
     size_t count;
-    struct br_error err = {0};
     MUST(br_scene_list(&name, &count, &err));
     assert_true(count >= 33);
     for (size_t i = 0; i < count; i += br_test_quick() ? 8 : 1) {
@@ -72,7 +70,6 @@ TEST(test_lagged_contact)
 {
     char **name;
     size_t count, limits = 0, near = 0;
-    struct br_error err = {0};
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
         OWNED(br_scene) scene = br_test_bundled(name[i]);
@@ -103,7 +100,6 @@ TEST(test_limit_of_columns)
     OWNED(br_scene) scene = br_test_bundled("impact");
     const struct br_scene *one = &scene;
     struct br_named_methods named;
-    struct br_error err = {0};
     OWNED(br_stability) s;
     size_t below = 0;
     MUST(br_named_methods_read("euler+lagged,euler+lagged+p2", &named, &err));
@@ -151,7 +147,6 @@ TEST(test_limits_by_hand)
     scene.bending.modelled = false;
     scene.contact = (struct br_contact){.modelled = true, .gap = 1};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         OWNED(br_stability) s;
         scene.contact.stiffness = rows[i].stiffness;
         MUST(br_stability_run(&s, &job, &err));
@@ -167,7 +162,6 @@ TEST(test_limits_by_hand)
 TEST(test_broken_by)
 {
     static const size_t n = 10, steps[] = {101, 10};
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     const struct br_scene *one = &scene;
     struct br_named_methods named;
@@ -198,7 +192,6 @@ TEST(test_broken_by)
 /* The load puts in more and more energy; and a rod with no contact and no load has none. */
 TEST(test_growth_of_loads)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     struct br_stability s;
     scene.axial.load = br_test_load("exp(30*t)");
@@ -234,7 +227,6 @@ TEST(test_outcome)
  * the same steps, have put in; of linear and of quadratic elements. */
 TEST(test_share_of_two_marches)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("impact");
     OWNED(br_stability) s;
     MUST(run(&s, &scene, "bdf2,bdf2+p2", &err));
@@ -267,7 +259,6 @@ TEST(test_share_of_two_marches)
 /* A verdict that sees a break where there is no limit, and steps of one column in order. */
 TEST(test_verdict)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("impact");
     OWNED(br_stability) s;
     MUST(run(&s, &scene, "euler+lagged,euler+implicit,bdf3", &err));
@@ -312,7 +303,6 @@ TEST(test_verdicts_by_hand)
     scene.axial.stiffness = scene.length = scene.duration = 1;
     for (size_t i = 0; i < ALL * sizeof rows / sizeof *rows; i++) {
         const size_t row = i / ALL, place = i % ALL;
-        struct br_error err = {0};
         size_t steps[ROWS] = {10, 10, 10};
         struct br_stability_point point[PLANES][COLUMNS * ROWS];
         struct br_stability_column column[PLANES][COLUMNS];
@@ -346,7 +336,6 @@ static bool stop_now(void *self)
 
 TEST(test_refusals)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("impact");
     const struct br_scene *one = &scene;
     struct br_stability s;

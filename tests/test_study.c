@@ -276,7 +276,6 @@ TEST(test_errors)
         {"example2", {0, 0}, 2, {4, 10}, 2, {8, 20}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
         struct br_study s[NORMS] = {study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
                                              rows[i].k_count, rows[i].steps)};
@@ -298,7 +297,6 @@ enum { KEPT = 1 + 9 * BR_PARTS };
 static void errors_on(int threads, double out[2][NORMS][KEPT])
 {
     static const size_t n[] = {4, 8, 16}, steps[] = {20, 25, 100};
-    struct br_error err = {0};
     struct br_scene scene[2] = {br_test_bundled("example1"), br_test_bundled("example4")};
     struct br_study s[2 * NORMS];
     const size_t stride = threads ? 2 : 1;
@@ -337,7 +335,6 @@ TEST(test_same_bits)
 
 TEST(test_steps_of)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     size_t steps;
     static const double good[] = {1, 0.5, 0.01, 0.001, 1e-5, 1.0 / 3, 1e-12};
@@ -384,7 +381,6 @@ TEST(test_nesting)
     OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t good = 4;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         /* one bad study of two fails the call, and nothing is left of the other, before or after */
         struct br_study s[2];
         s[i % 2] = study_of(&scene, (struct br_resolution){8, 8}, 1, &good, 1, &good);
@@ -450,7 +446,6 @@ TEST(test_cells_that_fail)
         {"chatter", NULL, 0, NULL, NULL, {4, 2000}, 1, {4}, 1, {2000}, "."},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         OWNED(br_scene)
         scene = rows[i].scene  ? br_test_bundled(rows[i].scene)
                 : rows[i].load ? br_test_bare()
@@ -482,7 +477,6 @@ TEST(test_reference_check)
     static const char *const names[] = {"example1", "example2", "example3", "example4"};
     const size_t n = 20, steps = 50;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        struct br_error err = {0};
         OWNED(br_scene) scene = br_test_bundled(names[i]);
         OWNED(br_study) fine = study_of(&scene, (struct br_resolution){20, 50}, 1, &n, 1, &steps);
         fine.reference_check = &br_reference_exact;
@@ -529,7 +523,6 @@ TEST(test_observer)
     const struct br_observer silent = {0};
     for (int threads = 1; threads <= 3; threads++)
         for (int after = 0; after < 456; after += 57) {
-            struct br_error err = {0};
             const bool ends = after >= 399;
             struct watcher w = {.stop_after = ends ? 1000000 : after};
             const struct br_observer observer = {.progress = progress, .stop = stops, .self = &w};
@@ -562,7 +555,6 @@ static void make_grid(const struct br_scene *scene, struct br_study grid[NORMS])
 static void check_difference(const struct br_study *differences, size_t i, size_t j,
                              struct br_resolution finer)
 {
-    struct br_error err = {0};
     const struct br_cell *cell = br_study_cell(differences, i, j);
     assert_true(cell->at.n == meshes[i] && cell->at.steps == steps[j]);
     assert_true(cell->against.n == finer.n && cell->against.steps == finer.steps);
@@ -579,7 +571,6 @@ static void check_difference(const struct br_study *differences, size_t i, size_
 
 TEST(test_differences)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example4");
     struct br_study grid[NORMS];
     make_grid(&scene, grid);
@@ -620,7 +611,6 @@ TEST(test_refused_differences)
         {BR_AXIS_TIME, 2, 2, meshes, odd, "the time levels of k = 0.1 s are not all among"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        struct br_error err = {0};
         struct br_study grid[NORMS];
         make_grid(&scene, grid);
         grid[0].n_count = bad[i].n_count, grid[0].n = bad[i].n;

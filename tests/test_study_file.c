@@ -6,8 +6,6 @@
 #include "checks.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 static const char *const full = "title: a study\n"
                                 "run: sh -c 'echo l2={n}'\n"
                                 "n: 10, 20, 40\n"

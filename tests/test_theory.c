@@ -171,7 +171,6 @@ static void expect(const struct br_scene *scene, enum br_verify_kind kind,
 static void measure(struct br_test_random *r, size_t number, struct tally tally[BR_VERIFY_KINDS])
 {
     static size_t n[BR_VERIFY_KINDS][CELLS], steps[BR_VERIFY_KINDS][CELLS];
-    struct br_error err = {0};
     OWNED(br_scene) scene;
     struct br_verify verify = {0};
     char text[4000], name[64];
@@ -245,7 +244,6 @@ TEST(test_random)
 static double rate_in_k(const struct br_scene *scene, struct br_theory *theory)
 {
     static const size_t n[] = {4}, steps[] = {80, 160};
-    struct br_error err = {0};
     OWNED(br_study) s = br_test_study(scene, &br_reference_fine, 1, n, 2, steps);
     s.norm = &br_norm_energy; /* of velocities, where the start is seen */
     s.method = br_test_method(NULL, "implicit", NULL);
@@ -292,7 +290,6 @@ TEST(test_sudden_forces)
     };
     for (size_t i = 0; i < STARTS * (sizeof rows / sizeof *rows); i++) {
         const size_t how = i % STARTS, row = i / STARTS;
-        struct br_error err = {0};
         OWNED(br_scene) scene;
         struct br_theory theory;
         char text[500];

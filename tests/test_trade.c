@@ -102,7 +102,6 @@ TEST(test_names)
         {"bdf2+lagged", "lagged"},
         {"bdf2,bdf2+implicit", "--methods: bdf2+implicit is given twice"},
     };
-    struct br_error err = {0};
     struct br_named_methods all;
     MUST(br_named_methods_read("euler,regularised+bdf2+umfpack+p2", &all, &err));
     assert_int_equal(all.count, 2);
@@ -142,7 +141,6 @@ TEST(test_default_named_methods)
 /* Errors are those of a study's cells, in each norm; counts are the march's. */
 TEST(test_errors_are_a_study_s)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_named_methods all;
     MUST(br_named_methods_read("euler+lagged,bdf2,bdf2+p2", &all, &err));
@@ -186,7 +184,6 @@ TEST(test_steps_without_common_levels)
 {
     static const size_t steps[] = {947, 1259, 1687, 2251, 3001, 4001};
     enum { COUNT = sizeof steps / sizeof *steps };
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example3");
     struct br_named_methods all;
     struct br_trial trial[COUNT], alone;
@@ -213,7 +210,6 @@ static bool stop_at_once(void *self)
 /* What fails, or takes too long, stays in the list with its reason; an interruption ends all. */
 TEST(test_ends)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_named_methods all;
     MUST(br_named_methods_read("euler+regularised,euler,euler+implicit", &all, &err));
@@ -245,7 +241,6 @@ TEST(test_ends)
 static struct br_trade *laid_out(const struct br_scene *scene, const char *methods,
                                  const struct br_trade_grid *grid)
 {
-    struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
     MUST(br_named_methods_read(methods, &t->methods, &err));
@@ -335,7 +330,6 @@ TEST(test_forecast)
 {
     static const size_t n[] = {40, 160}, steps[] = {10, 100, 10000};
     static const double tolerance[] = {1e-2, 1e-4};
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trade *t = laid_out(&scene, "euler+implicit,bdf2+plain,adaptive",
                                   &(struct br_trade_grid){.n = n,
@@ -389,10 +383,10 @@ enum br_status __real_br_march_pace(const struct br_planned_march *march, double
 enum br_status __wrap_br_march_pace(const struct br_planned_march *march, double *pace,
                                     struct br_error *err);
 enum br_status __wrap_br_march_pace(const struct br_planned_march *march, double *pace,
-                                    struct br_error *err)
+                                    struct br_error *why)
 {
     if (!counts_paces)
-        return __real_br_march_pace(march, pace, err);
+        return __real_br_march_pace(march, pace, why);
     assert_true(paces < MOST_PACES);
     paced[paces].n = march->n;
     paced[paces].steps = march->steps;
@@ -407,7 +401,6 @@ TEST(test_paces)
 {
     static const size_t n[] = {40, 160}, steps[] = {10, 1000};
     static const double tolerance[] = {1e-2, 1e-4};
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trade *t = laid_out(&scene, "euler+implicit,esdirk4+plain,adaptive,adaptive+plain",
                                   &(struct br_trade_grid){.n = n,
@@ -432,7 +425,6 @@ TEST(test_paces)
  * when that trial is left out. */
 TEST(test_reference_is_forecast)
 {
-    struct br_error err = {0};
     OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trial trial[] = {{.named = &pair[0], .at = {10, 100000}},
                                {.named = &pair[1], .at = {10, 100000}}};

@@ -126,7 +126,6 @@ struct answer {
 
 static bool solve(const struct br_scene *s, struct answer *a)
 {
-    struct br_error err = {0};
     *a = (struct answer){NULL, NULL};
     const struct br_exact_options options = {.tolerance = 1e-7, .acceptable = 1e-5};
     if (br_exact_create(&a->exact, s, &options, &err))
@@ -293,7 +292,6 @@ static void compare_functions(const char *title, struct br_scene *a, struct br_s
 TEST(test_files)
 {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        struct br_error err = {0};
         struct br_scene a, b;
         MUST(br_scene_read_text("one.yaml", files[i].one, &a, &err));
         MUST(br_scene_read_text("other.yaml", files[i].other, &b, &err));

@@ -35,16 +35,15 @@ static const char *with(const char *part)
 }
 
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
-                                struct br_error *err)
+                                struct br_error *why)
 {
-    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, err);
+    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, why);
 }
 
 TEST(test_whole)
 {
     OWNED(br_scene) scene;
     OWNED(br_verify) v;
-    struct br_error err = {0};
     MUST(read_part("verify:\n"
                    "  joint:\n"
                    "    n: 10, 20,40, 80\n"
@@ -108,7 +107,6 @@ TEST(test_scenes_are_no_study_files)
 {
     char **names, path[1200];
     size_t count = 0;
-    struct br_error err = {0};
     MUST(br_scene_list(&names, &count, &err));
     assert_true(count > 5);
     for (size_t i = 0; i < count; i++) {
@@ -127,7 +125,6 @@ TEST(test_default)
 {
     OWNED(br_scene) scene;
     OWNED(br_verify) v;
-    struct br_error err = {0};
     size_t line;
     MUST(read_part("", &scene, &v, &err));
     assert_true(v.by_default);
@@ -157,7 +154,6 @@ TEST(test_ignored_by_others)
 {
     struct br_scene scene;
     OWNED(br_verify) v;
-    struct br_error err = {0};
     assert_int_equal(read_part("verify: 3\n", &scene, &v, &err), BR_BAD_INPUT);
     br_scene_clear(&scene);
     MUST(br_scene_read(br_test_scene_file(with("verify: 3\n")), &scene, &err));

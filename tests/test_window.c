@@ -7,8 +7,6 @@
 #include "checks.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 static enum br_status read_window(const char *text, const char *values, double finest,
                                   const char *without, struct br_numbers *numbers)
 {

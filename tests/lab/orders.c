@@ -44,7 +44,6 @@ struct tally {
 /* What a line shows. */
 static void observe(const struct br_error_line *line, struct br_point *point, struct br_case *c)
 {
-    struct br_error err = {0};
     *c = (struct br_case){
         .kind = BR_VERIFY_SPACE,
         .expected = {.order = NAN, .tolerance = tolerance, .floor = NAN, .ceiling = NAN},
@@ -163,7 +162,6 @@ static void try_held_out(size_t class, uint64_t seed, size_t index, struct tally
 static void find(size_t rows, const double *h, const double *k, const double *e, bool values,
                  struct br_numbers *n, struct br_orders *o)
 {
-    struct br_error err = {0};
     *n = (struct br_numbers){0};
     n->column[0] = br_resolution_column_find("h");
     n->column[1] = k ? br_resolution_column_find("k") : NULL;
@@ -188,7 +186,6 @@ static void find(size_t rows, const double *h, const double *k, const double *e,
 static enum br_verdict verdict_of(const struct br_orders *o, int axis, double expected,
                                   struct br_case *c)
 {
-    struct br_error err = {0};
     OWNED(br_check) check = {.path = "made"};
     const struct br_order_expectation e = {
         .quantity = "e",

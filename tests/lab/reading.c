@@ -407,13 +407,13 @@ static bool names_left(const struct br_numbers *n, const char *text)
 }
 
 static struct outcome find_outcome(const struct br_numbers *n, enum br_status status,
-                                   const struct br_error *err, const struct expected *e,
+                                   const struct br_error *why, const struct expected *e,
                                    struct change change)
 {
     struct outcome o = {.verdict = RIGHT};
     if (status) {
-        const bool helps = strstr(err->message, "--") || strstr(err->message, "dimension:");
-        snprintf(o.why, sizeof o.why, "%.590s", err->message);
+        const bool helps = strstr(why->message, "--") || strstr(why->message, "dimension:");
+        snprintf(o.why, sizeof o.why, "%.590s", why->message);
         if (!(e->refuses || ((e->asks || e->may_ask) && helps)))
             o.verdict = helps ? ASKED : REFUSED;
         return o;
@@ -440,7 +440,6 @@ static struct outcome find_outcome(const struct br_numbers *n, enum br_status st
 static struct outcome read_table(const char *table, const struct table_case *c,
                                  struct change change)
 {
-    struct br_error err = {0};
     OWNED(br_numbers) n = {0};
     OWNED(br_orders_request) r = br_orders_request_default();
     r.path = copy_of(c->name, strlen(c->name));

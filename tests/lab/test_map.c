@@ -46,7 +46,6 @@ static struct br_extreme_verdict find_verdict(struct named which,
 {
     struct br_extreme_case one;
     struct br_extreme_verdict verdict;
-    struct br_error err = {0};
     br_extreme_draw(which.seed, which.index, &one);
     assert_int_equal(br_extreme_check(&one, options, &verdict, &err), BR_OK);
     return verdict;
