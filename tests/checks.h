@@ -21,8 +21,9 @@ extern _Thread_local struct br_error err;
 /* The call's status is BR_OK; else the error's message is shown. */
 #define MUST(call) br_test_must(call, &err, #call, __FILE__, __LINE__)
 /* The call is refused with the status, and its message contains the text. */
-#define REFUSED(call, status, text) \
-    br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__)
+#define REFUSED(call, status, text)      \
+    (err = (struct br_error){BR_OK, ""}, \
+     br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__))
 
 /* A variable that is cleared, or freed, at the end of its block; from the last one to the first.
  *     OWNED(br_numbers) numbers = read("h,l2\n1,1\n"); */

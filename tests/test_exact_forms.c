@@ -185,7 +185,6 @@ TEST(test_rounded_times)
     br_function_free(&scene.axial.load.term[0].space);
 
     struct br_exact *exact;
-    struct br_error err;
     const struct br_exact_options modest = {.tolerance = 1e-9, .acceptable = 1e-3};
     scene.axial.load = br_test_load("cos(x*t)*exp(-((t-1)*1e9)^2)*(1-2*((t-1)*1e9)^2)*1e16");
     REFUSED(br_exact_create(&exact, &scene, &modest, &err), BR_NOT_FINITE,
