@@ -20,10 +20,10 @@ extern _Thread_local struct br_error err;
 #define AT_MOST(actual, limit) br_test_at_most(#actual, actual, limit, __FILE__, __LINE__)
 /* The call's status is BR_OK; else the error's message is shown. */
 #define MUST(call) br_test_must(call, &err, #call, __FILE__, __LINE__)
-/* The call is refused with the status, and its message contains the text. */
-#define REFUSED(call, status, text)      \
-    (err = (struct br_error){BR_OK, ""}, \
-     br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__))
+/* The call is refused with the status, and its message contains the text. This error is then
+ * judged: the next refusal needs one of its own. */
+#define REFUSED(call, status, text) \
+    br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__)
 
 /* A variable that is cleared, or freed, at the end of its block; from the last one to the first.
  *     OWNED(br_numbers) numbers = read("h,l2\n1,1\n"); */
@@ -37,7 +37,7 @@ void br_test_close(const char *what, double actual, double expected, double tole
 void br_test_at_most(const char *what, double actual, double limit, const char *file, int line);
 void br_test_must(enum br_status status, const struct br_error *why, const char *what,
                   const char *file, int line);
-void br_test_refused(enum br_status status, enum br_status expected, const struct br_error *why,
+void br_test_refused(enum br_status status, enum br_status expected, struct br_error *why,
                      const char *text, const char *what, const char *file, int line);
 
 /* A reproducible generator: SplitMix64 (Steele, Lea and Flood 2014). */

@@ -297,7 +297,7 @@ TEST(test_not_finite)
         while (!status && br_march_steps_done(march) < 800)
             status = br_march_step(march, &err);
         REFUSED(status, BR_NOT_FINITE, "the march blew up at t = ");
-        REFUSED(status, BR_NOT_FINITE, "of 800, k = 1.25 s): the axial ");
+        assert_non_null(strstr(err.message, "of 800, k = 1.25 s): the axial "));
         br_march_free(march);
         br_scene_clear(&scene);
     }

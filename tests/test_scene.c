@@ -104,6 +104,7 @@ TEST(test_mangled)
         char copy[4096];
         memcpy(copy, text, cut);
         copy[cut] = '\0';
+        err.status = BR_OK;
         if (read_text(copy, &scene, &err))
             assert_int_equal(err.status, BR_BAD_INPUT);
         br_scene_clear(&scene);
