@@ -16,14 +16,13 @@ for program in mkdocs c++ clang-format-14; do
 done
 printf '#!/bin/sh\nexec "$@"\n' >"$work/tree/.ci/without" # what it hides, .ci/run itself sees
 cp "$work/tree/.ci/without" "$work/tree/.ci/openblas"
-# $FIRST, $SECOND, $THIRD and $FOURTH are what the passes do; that with OpenBLAS passes.
+# $FIRST, $SECOND and $THIRD are what the passes do; those with OpenBLAS and with sanitizers pass.
 cat >"$work/tree/bootstrap" <<'END'
 #!/bin/sh
 case ${CC-}$* in
 test) cat "$WORK/skips" && eval "$FIRST" ;;
 'test blas '*) echo 5 passed, 0 failed ;;
-'test columns '*) case $SETUP$BUILD in *address,undefined*/build/sanitized)
-    REPORTS=${UBSAN_OPTIONS#log_path=} && REPORTS=${REPORTS%%:*} && eval "$FOURTH" ;; esac ;;
+'test columns '*) case $SETUP$BUILD in *address,undefined*/build/sanitized) echo 5 passed, 0 failed ;; esac ;;
 '--with mpi test '*) eval "$SECOND" ;;
 'clangtest '*) case $BUILD in */build/clang) eval "$THIRD" ;; esac ;;
 esac
@@ -31,10 +30,10 @@ END
 chmod +x "$work/tree/bootstrap"
 
 failures=0
-# adds_up LINE CODE FIRST SECOND THIRD [FOURTH]: the last line and the exit code of the four.
+# adds_up LINE CODE FIRST SECOND THIRD: the last line and the exit code of the three.
 adds_up() {
     local code=0 line
-    WORK=$work FIRST=$3 SECOND=$4 THIRD=$5 FOURTH=${6-$good} PATH=$work/bin:$PATH CI_SECONDS=${seconds-60} \
+    WORK=$work FIRST=$3 SECOND=$4 THIRD=$5 PATH=$work/bin:$PATH CI_SECONDS=${seconds-60} \
         env -u CC "$work/tree/.ci/run" >"$work/out" 2>"$work/err" || code=$?
     line=$(tail -n 1 "$work/out")
     [ "$line" = "$1" ] && [ $((code != 0)) -eq "$2" ] && return
@@ -49,8 +48,10 @@ adds_up '25 passed, 1 failed' 1 "$good" "$good" "$good; exit 3"
 adds_up '20 passed, 1 failed' 1 "$good" 'kill -SEGV $$' "$good"
 adds_up '25 passed, 1 failed' 1 "$good" "echo 'skipped: completions: zsh is not installed'; $good" "$good"
 adds_up '25 passed, 0 failed' 0 "$good" "echo 'skipped: foreign: FreeFem++ is not installed'; $good" "$good"
-adds_up '25 passed, 1 failed' 1 "$good" "$good" "$good" 'echo >"${REPORTS}.7"; echo 5 passed, 0 failed'
 seconds=5 adds_up '5 passed, 4 failed' 1 "$good" 'sleep 600' "$good"
 sed -i 1d "$work/skips"
 adds_up '25 passed, 1 failed' 1 "$good" "$good" "$good"
+mkdir -p "$work/tree/build/sanitized/meson-logs"
+echo 'a.c:1:2: runtime error: a report' >"$work/tree/build/sanitized/meson-logs/testlog.txt"
+adds_up '25 passed, 2 failed' 1 "$good" "$good" "$good"
 [ "$failures" -eq 0 ]
