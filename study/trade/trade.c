@@ -226,7 +226,8 @@ static enum br_status prepare_reference(struct br_trade *t, struct br_error *err
     const struct br_reference *reference = br_trials_reference(&t->request);
     const struct br_reference_request request = {
         .scene = t->request.scene, .levels = 1, .lead = 1, .observer = t->request.observer};
-    return t->reference || reference->nests ? BR_OK : reference->create(&t->reference, &request, err);
+    return t->reference || reference->nests ? BR_OK
+                                            : reference->create(&t->reference, &request, err);
 }
 
 /* The reference's set-up and the forecast itself count: as seconds of this thread, which do not
