@@ -15,6 +15,15 @@ __attribute__((constructor)) static void let_gsl_return(void)
     gsl_set_error_handler_off();
 }
 
+_Thread_local struct br_error err;
+
+void br_test_free(void *pointer)
+{
+    void *memory;
+    memcpy(&memory, pointer, sizeof memory);
+    free(memory);
+}
+
 void br_test_close(const char *what, double actual, double expected, double tolerance,
                    const char *file, int line)
 {
@@ -34,24 +43,25 @@ void br_test_at_most(const char *what, double actual, double limit, const char *
     }
 }
 
-void br_test_must(enum br_status status, const struct br_error *err, const char *what,
+void br_test_must(enum br_status status, const struct br_error *why, const char *what,
                   const char *file, int line)
 {
     if (status != BR_OK) {
-        print_error("%s:%d: %s: status %d: %s\n", file, line, what, status, err->message);
+        print_error("%s:%d: %s: status %d: %s\n", file, line, what, status, why->message);
         _fail(file, line);
     }
 }
 
-void br_test_refused(enum br_status status, enum br_status expected, const struct br_error *err,
+void br_test_refused(enum br_status status, enum br_status expected, struct br_error *why,
                      const char *text, const char *what, const char *file, int line)
 {
-    const bool right = status == expected && err->status == expected && strstr(err->message, text);
+    const bool right = status == expected && why->status == expected && strstr(why->message, text);
     if (!right) {
         print_error("%s:%d: %s: status %d with \"%s\", expected %d with \"%s\"\n", file, line, what,
-                    status, err->message, expected, text);
+                    status, why->message, expected, text);
         _fail(file, line);
     }
+    why->status = BR_OK;
 }
 
 static uint64_t next(struct br_test_random *random)
@@ -331,12 +341,12 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
 
 /* ---- memory ---- */
 
-void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *why),
                             const void *data, long least)
 {
     long failed = 0, left = -1;
     for (long i = 0; left < 0; i++) {
-        struct br_error err = {0};
+        err = (struct br_error){0};
         br_allocation_fails_at(i);
         const enum br_status status = attempt(data, &err);
         left = br_allocation_fails_at(-1);

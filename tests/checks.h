@@ -11,22 +11,33 @@
 #include "base/status.h"
 #include "tests/test.h"
 
+/* Of the last call of a test that failed. */
+extern _Thread_local struct br_error err;
+
 /* |actual - expected| <= tolerance; `what` goes into the message. */
 #define CLOSE(actual, expected, tolerance) \
     br_test_close(#actual, actual, expected, tolerance, __FILE__, __LINE__)
 #define AT_MOST(actual, limit) br_test_at_most(#actual, actual, limit, __FILE__, __LINE__)
 /* The call's status is BR_OK; else the error's message is shown. */
 #define MUST(call) br_test_must(call, &err, #call, __FILE__, __LINE__)
-/* The call is refused with the status, and its message contains the text. */
+/* The call is refused with the status, and its message contains the text. This error is then
+ * judged: the next refusal needs one of its own. */
 #define REFUSED(call, status, text) \
     br_test_refused(call, status, &err, text, #call, __FILE__, __LINE__)
+
+/* A variable that is cleared, or freed, at the end of its block; from the last one to the first.
+ *     OWNED(br_numbers) numbers = read("h,l2\n1,1\n"); */
+#define OWNED(type) __attribute__((cleanup(type##_clear))) struct type
+#define FREED __attribute__((cleanup(br_test_free)))
+
+void br_test_free(void *pointer); /* a pointer to one */
 
 void br_test_close(const char *what, double actual, double expected, double tolerance,
                    const char *file, int line);
 void br_test_at_most(const char *what, double actual, double limit, const char *file, int line);
-void br_test_must(enum br_status status, const struct br_error *err, const char *what,
+void br_test_must(enum br_status status, const struct br_error *why, const char *what,
                   const char *file, int line);
-void br_test_refused(enum br_status status, enum br_status expected, const struct br_error *err,
+void br_test_refused(enum br_status status, enum br_status expected, struct br_error *why,
                      const char *text, const char *what, const char *file, int line);
 
 /* A reproducible generator: SplitMix64 (Steele, Lea and Flood 2014). */
@@ -57,7 +68,7 @@ void br_test_rows(const char *section, void (*check)(char *row));
 /* Fails every allocation of an attempt in turn: at least `least` attempts fail, and each says so (a
  * few allocations can be done without). attempt: allocates, and cleans up after itself whatever
  * happens. */
-void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
+void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *why),
                             const void *data, long least);
 
 /* Compares the printed text with golden/made/NAME.txt: they must agree to the byte, but numbers may

@@ -51,4 +51,7 @@ adds_up '25 passed, 0 failed' 0 "$good" "echo 'skipped: foreign: FreeFem++ is no
 seconds=5 adds_up '5 passed, 4 failed' 1 "$good" 'sleep 600' "$good"
 sed -i 1d "$work/skips"
 adds_up '25 passed, 1 failed' 1 "$good" "$good" "$good"
+mkdir -p "$work/tree/build/sanitized/meson-logs"
+echo 'a.c:1:2: runtime error: a report' >"$work/tree/build/sanitized/meson-logs/testlog.txt"
+adds_up '25 passed, 2 failed' 1 "$good" "$good" "$good"
 [ "$failures" -eq 0 ]

@@ -7,6 +7,7 @@
 
 #include "tests/exact_points.h"
 #include "tests/exact_scenes.h"
+#include "tests/support.h"
 
 static void evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
@@ -31,7 +32,6 @@ struct br_load uniform(double amplitude, const char *time)
 
 struct solved solve(const struct br_scene *scene, double tolerance)
 {
-    struct br_error err = {0};
     struct solved s = {0};
     const struct br_exact_options options = {.tolerance = tolerance};
     if (br_exact_create(&s.exact, scene, &options, &err))
@@ -102,12 +102,11 @@ void check_closed(const struct solved *s, double length, double until, int times
                   const struct expected *expected)
 {
     for (size_t i = 0; i < count; i++) {
-        struct br_function f = br_test_function(expected[i].f.s);
+        OWNED(br_function) f = br_test_function(expected[i].f.s);
         for (int n = 1; n <= times; n++) {
             br_exact_at(s->exact, until * n / times, s->state);
             check_now(s, length, &expected[i], &f);
         }
-        br_function_free(&f);
     }
 }
 

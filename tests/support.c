@@ -13,7 +13,6 @@
 
 struct br_scene br_test_bundled(const char *name)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     char path[1024];
     MUST(br_scene_find(name, path, sizeof path, &err));
@@ -34,10 +33,19 @@ struct br_scene br_test_bare(void)
 
 struct br_function br_test_function(const char *expression)
 {
-    struct br_error err = {0};
     struct br_function function;
     MUST(br_expression(expression, &function, &err));
     return function;
+}
+
+void br_function_clear(struct br_function *function)
+{
+    br_function_free(function);
+}
+
+void br_march_clear(struct br_march **march)
+{
+    br_march_free(*march);
 }
 
 struct br_load br_test_load(const char *expression)
@@ -64,7 +72,6 @@ struct br_method br_test_method(const char *solver, const char *contact, const c
 struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t steps,
                                const struct br_method *method)
 {
-    struct br_error err = {0};
     struct br_march *march;
     MUST(br_march_create(&march, scene, n, steps, method, &err));
     return march;
@@ -72,7 +79,6 @@ struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t st
 
 void br_test_advance(struct br_march *march, size_t until)
 {
-    struct br_error err = {0};
     while (br_march_steps_done(march) < until)
         MUST(br_march_step(march, &err));
 }
@@ -156,7 +162,6 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
 
 void br_test_scene_refused(const char *text, bool verify, const char *message)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     struct br_verify v = {0};
     const char *path = br_test_scene_file(text);
@@ -167,6 +172,7 @@ void br_test_scene_refused(const char *text, bool verify, const char *message)
     if (status != BR_BAD_INPUT || err.status != BR_BAD_INPUT || !strstr(err.message, message) ||
         strncmp(err.message, path, strlen(path)) != 0)
         fail_msg("%s\nsaid '%s', expected '%s'", text, err.message, message);
+    err.status = BR_OK;
 }
 
 const struct br_warning *br_test_warning(const struct br_warnings *w, enum br_warning_kind kind)

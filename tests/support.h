@@ -14,6 +14,10 @@
 /* The bundled scene of that name; to be cleared. */
 struct br_scene br_test_bundled(const char *name);
 
+/* For OWNED(br_function) function and OWNED(br_march) *march. */
+void br_function_clear(struct br_function *function);
+void br_march_clear(struct br_march **march);
+
 /* A bare scene with both fields, unit data and no load, contact or friction: it owns nothing. */
 struct br_scene br_test_bare(void);
 

@@ -96,10 +96,9 @@ static struct br_counts counts_of(const struct br_scene *scene, const char *solv
     struct br_method method = br_test_method(solver, "implicit", NULL);
     method.scheme = br_time_scheme_find("adaptive");
     method.tolerance = tolerance;
-    struct br_march *march = br_test_march(scene, n, 4, &method);
+    OWNED(br_march) *march = br_test_march(scene, n, 4, &method);
     br_test_advance(march, 4);
     const struct br_counts counts = br_march_counts(march);
-    br_march_free(march);
     return counts;
 }
 
@@ -111,14 +110,13 @@ TEST(test_same_steps)
     static const size_t meshes[] = {1, 3, 8, 10, 21};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
         for (size_t j = 0; j < sizeof meshes / sizeof *meshes; j++) {
-            struct br_scene scene = br_test_bundled(scenes[i]);
+            OWNED(br_scene) scene = br_test_bundled(scenes[i]);
             const struct br_counts riccati = counts_of(&scene, "riccati", meshes[j], 1e-6);
             const struct br_counts plain = counts_of(&scene, "plain", meshes[j], 1e-6);
             const struct br_counts assembled = counts_of(&scene, "umfpack", meshes[j], 1e-6);
             const double most = 1 + 0.01 * (double)plain.steps;
             CLOSE((double)riccati.steps, (double)plain.steps, most);
             CLOSE((double)assembled.steps, (double)plain.steps, most);
-            br_scene_clear(&scene);
         }
 }
 
@@ -129,11 +127,11 @@ TEST(test_listed_switches)
     static const char *const scenes[] = {"example2", "chatter", "impact", "release"};
     size_t all[2] = {0};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[i]);
         struct br_method method = br_test_method(NULL, "implicit", NULL);
         method.scheme = br_time_scheme_find("adaptive");
         method.tolerance = 1e-6;
-        struct br_march *march = br_test_march(&scene, 10, 4, &method);
+        OWNED(br_march) *march = br_test_march(&scene, 10, 4, &method);
         br_test_advance(march, 4);
         const struct br_switch *s;
         const size_t count = br_march_switches(march, &s);
@@ -147,8 +145,6 @@ TEST(test_listed_switches)
             any[s[j].kind] = true;
             all[s[j].kind]++;
         }
-        br_march_free(march);
-        br_scene_clear(&scene);
     }
     assert_true(all[BR_AXIAL] > 1 && all[BR_BENDING] > 1);
 }
@@ -166,35 +162,31 @@ static struct br_scene smooth_scene(const char *axial, const char *bending)
 /* A step's error is of order 4, so that steps shorten by 10^(1/4) with a tolerance of a tenth. */
 TEST(test_steps_of_tolerance)
 {
-    struct br_scene scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
+    OWNED(br_scene) scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
     const double many = (double)counts_of(&scene, NULL, 6, 1e-9).steps;
     const double few = (double)counts_of(&scene, NULL, 6, 1e-5).steps;
     CLOSE(log10(many / few) / 4, 0.25, 0.04);
-    br_scene_clear(&scene);
 }
 
 /* Errors are relative: a load whose squares are no doubles has the same steps. */
 TEST(test_small_load)
 {
-    struct br_scene scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
-    struct br_scene small = smooth_scene("1e-150*sin(2*t)^5", "3e-150*sin(2*t)^5");
+    OWNED(br_scene) scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
+    OWNED(br_scene) small = smooth_scene("1e-150*sin(2*t)^5", "3e-150*sin(2*t)^5");
     const double usual = (double)counts_of(&scene, "riccati", 6, 1e-6).steps;
     CLOSE((double)counts_of(&small, "riccati", 6, 1e-6).steps, usual, 2);
     CLOSE((double)counts_of(&small, "plain", 6, 1e-6).steps, usual, 2);
-    br_scene_clear(&scene);
-    br_scene_clear(&small);
 }
 
 /* A rod without mass and viscosity follows a load that jumps at once: steps shorten to the least
  * one there, which is taken although its error stays. */
 TEST(test_jump)
 {
-    struct br_scene scene = smooth_scene("step(t - 7.3)", "0");
+    OWNED(br_scene) scene = smooth_scene("step(t - 7.3)", "0");
     scene.density = scene.axial.viscosity = 0;
     scene.bending.modelled = false;
     const struct br_counts counts = counts_of(&scene, NULL, 6, 1e-6);
     assert_true(counts.rejected > 30);
-    br_scene_clear(&scene);
 }
 
 /* ---- what a step begins with ---- */
@@ -229,16 +221,14 @@ static void see_step(void *self, enum br_field_kind kind, bool switched)
  * left, whatever was tried and taken back since. */
 TEST(test_taken_back)
 {
-    struct br_scene scene = br_test_bundled("chatter");
+    OWNED(br_scene) scene = br_test_bundled("chatter");
     struct br_method method = br_test_method(NULL, "implicit", NULL);
     method.scheme = br_time_scheme_find("adaptive");
     method.tolerance = 1e-4;
-    struct br_march *march = br_test_march(&scene, 4, 10, &method);
+    OWNED(br_march) *march = br_test_march(&scene, 4, 10, &method);
     struct record record = {.march = march, .accepted = *br_march_tip(march)};
     assert_true(br_march_watch(march, &(struct br_march_watcher){&record, see_stage, see_step}));
     br_test_advance(march, 10);
     assert_true(br_march_counts(march).rejected > 0);
     assert_true(record.trials > record.steps && record.steps == br_march_counts(march).steps);
-    br_march_free(march);
-    br_scene_clear(&scene);
 }

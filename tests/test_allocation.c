@@ -11,11 +11,10 @@
 #include "study/scene/file.h"
 #include "support.h"
 
-static enum br_status read_scene(const void *path, struct br_error *err)
+static enum br_status read_scene(const void *path, struct br_error *why)
 {
-    struct br_scene scene;
-    const enum br_status status = br_scene_read(path, &scene, err);
-    br_scene_clear(&scene);
+    OWNED(br_scene) scene;
+    const enum br_status status = br_scene_read(path, &scene, why);
     return status;
 }
 
@@ -44,7 +43,6 @@ static const char *const full_scene =
 
 static struct br_scene full(void)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     MUST(br_scene_read_text("full.yaml", full_scene, &scene, &err));
     return scene;
@@ -55,16 +53,14 @@ TEST(test_scene)
     br_test_without_memory(read_scene, br_test_scene_file(full_scene), 10);
 }
 
-static enum br_status read_set(const void *text, struct br_error *err)
+static enum br_status read_set(const void *text, struct br_error *why)
 {
-    struct br_scene scene;
-    char *left = NULL;
+    OWNED(br_scene) scene;
+    FREED char *left = NULL;
     const struct br_scene_asked asked = {
         .set = "length=2 m\naxial.load.shape=x^2 [1]\naxial.tip_force=t [N]\nremark=a",
         .text = &left};
-    const enum br_status status = br_scene_parse("full.yaml", text, &asked, &scene, err);
-    br_scene_clear(&scene);
-    free(left);
+    const enum br_status status = br_scene_parse("full.yaml", text, &asked, &scene, why);
     return status;
 }
 
@@ -78,22 +74,21 @@ struct march_data {
     struct br_method method;
 };
 
-static enum br_status study(const void *data, struct br_error *err)
+static enum br_status study(const void *data, struct br_error *why)
 {
     const struct march_data *d = data;
     static const size_t n[] = {2, 4}, steps[] = {5, 10};
-    struct br_study s = br_test_study(&d->scene, &br_reference_fine, 2, n, 2, steps);
+    OWNED(br_study) s = br_test_study(&d->scene, &br_reference_fine, 2, n, 2, steps);
     s.method = d->method;
     s.reference_method = d->method;
     s.reference = (struct br_resolution){8, 10};
-    enum br_status status = br_study_run(&s, 1, 1, NULL, err);
+    enum br_status status = br_study_run(&s, 1, 1, NULL, why);
     /* A failure during a march fails its cell, not the study. */
     for (size_t i = 0; !status && i < 4; i++)
         if (s.cell[i].failure.status) {
-            *err = s.cell[i].failure;
-            status = err->status;
+            *why = s.cell[i].failure;
+            status = why->status;
         }
-    br_study_clear(&s);
     return status;
 }
 
@@ -107,10 +102,10 @@ TEST(test_study)
     }
 }
 
-static enum br_status run_scene(const void *data, struct br_error *err)
+static enum br_status run_scene(const void *data, struct br_error *why)
 {
     struct br_run_report report;
-    struct br_history_record record = {0};
+    OWNED(br_history_record) record = {0};
     const struct br_history_observer recorder = br_history_recorder(&record, 4);
     static const size_t level[] = {0, 3};
     const struct march_data *d = data;
@@ -126,8 +121,7 @@ static enum br_status run_scene(const void *data, struct br_error *err)
         .output = &recorder,
         .outputs = 1,
     };
-    const enum br_status status = br_run(&request, &report, err);
-    br_history_record_clear(&record);
+    const enum br_status status = br_run(&request, &report, why);
     return status;
 }
 

@@ -56,8 +56,7 @@ static void expect_same(const struct br_study *a, const struct br_study *b)
 static void march_one_by_one(struct br_study *studies, size_t count,
                              const struct br_batches *batches)
 {
-    struct br_error err = {0};
-    char *bytes = NULL;
+    FREED char *bytes = NULL;
     size_t size;
     FILE *results = open_memstream(&bytes, &size);
     assert_non_null(results);
@@ -68,7 +67,6 @@ static void march_one_by_one(struct br_study *studies, size_t count,
         REFUSED(br_batches_read(studies, count, batches, bytes, size * i / 20, &err), BR_IO,
                 "cut off");
     MUST(br_batches_read(studies, count, batches, bytes, size, &err));
-    free(bytes);
 }
 
 /* A study that fails is a result of its own, and the others go on. */
@@ -78,7 +76,6 @@ TEST(test_same_bits)
     struct br_scene scene = br_test_bundled("example3"), bad = scene;
     bad.friction.regularisation = 0;
     for (int ranks = 1; ranks <= 5; ranks += 2) {
-        struct br_error err = {0};
         struct br_study whole[STUDIES], parts[STUDIES];
         struct br_study *const sets[] = {whole, parts};
         for (int i = 0; i < 2; i++) {
@@ -93,7 +90,7 @@ TEST(test_same_bits)
             s[0].next_norm = &s[3]; /* a chain */
         }
         MUST(br_march_studies(whole, FIRST, 1, NULL, &err));
-        struct br_batches batches;
+        OWNED(br_batches) batches;
         MUST(br_batches_create(&batches, parts, FIRST, ranks, 1, &err));
         assert_true(batches.count == FIRST || ranks > 1);
         march_one_by_one(parts, FIRST, &batches);
@@ -103,7 +100,6 @@ TEST(test_same_bits)
             br_study_clear(&whole[i]);
             br_study_clear(&parts[i]);
         }
-        br_batches_clear(&batches);
     }
     br_scene_clear(&scene);
 }
@@ -127,8 +123,7 @@ static size_t batches_of(const struct br_batches *batches, const size_t *of)
 
 TEST(test_cutting)
 {
-    struct br_scene scene = br_test_bundled("example1");
-    struct br_error err = {0};
+    OWNED(br_scene) scene = br_test_bundled("example1");
     const size_t n[] = {100, 200, 400, 800}, steps[] = {5000, 6000, 8000, 10000};
     struct br_study s[] = {
         prepared(&scene, &br_reference_exact, (struct br_resolution){0, 120000}),
@@ -147,7 +142,7 @@ TEST(test_cutting)
         {1, 1, 1, 1, 0}, {1, 2, 1, 2, 0}, {1, 4, 1, 3, 0}, {2, 4, 1, 1, 1}, {2, 8, 4, 1, 1},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_batches batches;
+        OWNED(br_batches) batches;
         MUST(br_batches_create(&batches, s, rows[i].studies, rows[i].ranks, rows[i].threads, &err));
         const size_t exact = batches_of(&batches, batches.of);
         const size_t fine = rows[i].fine ? batches_of(&batches, batches.of + 16) : 0;
@@ -156,21 +151,18 @@ TEST(test_cutting)
         assert_int_equal(fine, rows[i].fine);
         for (size_t b = 0; b < batches.count; b++)
             assert_true(batches.cost[b] > 0);
-        br_batches_clear(&batches);
     }
-    struct br_batches none;
+    OWNED(br_batches) none;
     MUST(br_batches_create(&none, s, 0, 4, 1, &err));
     assert_int_equal(none.count, 0);
-    br_batches_clear(&none);
     br_study_clear(&s[0]);
     br_study_clear(&s[1]);
-    br_scene_clear(&scene);
 }
 
 TEST(test_slices)
 {
-    struct br_scene scene = br_test_bundled("example1");
-    struct br_study s = prepared(&scene, &br_reference_exact, of_levels);
+    OWNED(br_scene) scene = br_test_bundled("example1");
+    OWNED(br_study) s = prepared(&scene, &br_reference_exact, of_levels);
     double all = 0;
     for (size_t i = 0; i < 16; i++)
         all += br_cell_seconds(&s, i);
@@ -187,8 +179,6 @@ TEST(test_slices)
         const double ideal = fmax(all / (double)slices, br_cell_seconds(&s, 15));
         assert_true(most <= 4.0 / 3 * ideal * (1 + 1e-12)); /* Graham's bound */
     }
-    br_study_clear(&s);
-    br_scene_clear(&scene);
 }
 
 /* ---- what comes from elsewhere ---- */
@@ -196,7 +186,7 @@ TEST(test_slices)
 TEST(test_fingerprint)
 {
     struct br_scene scene = br_test_bundled("example4"), other = br_test_bundled("example4");
-    struct br_study s = prepared(&scene, &br_reference_exact, of_levels);
+    OWNED(br_study) s = prepared(&scene, &br_reference_exact, of_levels);
     const unsigned long long print = br_studies_fingerprint(&s, 1);
     for (int change = 0; change < 5; change++) {
         struct br_study t = s;
@@ -207,7 +197,6 @@ TEST(test_fingerprint)
         other.axial.tip_force.constant = change == 4;
         assert_true((br_studies_fingerprint(&t, 1) == print) == (change == 0));
     }
-    br_study_clear(&s);
     br_scene_clear(&scene);
     br_scene_clear(&other);
 }

@@ -59,14 +59,12 @@ COUNTED(NUMERIC, int, umfpack_di_numeric,
 /* The number of threads is right while two of ours are at work, too. */
 TEST(test_one_thread)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_study s =
         br_test_study(&scene, &br_reference_exact, 2, (size_t[]){4, 8}, 2, (size_t[]){20, 50});
     s.method = br_test_method("umfpack", NULL, NULL);
     MUST(br_study_run(&s, 1, 2, NULL, &err));
     br_study_clear(&s);
-    br_scene_clear(&scene);
     for (int i = 0; i < FUNCTIONS; i++)
         assert_true(calls[i] > 0);
     assert_int_equal(wrong, 0);

@@ -139,7 +139,6 @@ static bool is_right(const struct hard_load *c, double t, const char *what, cons
 static enum outcome compare(const struct hard_load *c, const struct br_exact *exact,
                             const struct truth *truth)
 {
-    struct br_error err = {0};
     struct br_exact_state *state;
     const enum br_field_kind field = c->problem.bending ? BR_BENDING : BR_AXIAL;
     const struct br_exact_size error = br_exact_report(exact, field).error;
@@ -171,13 +170,13 @@ static bool is_sure(const struct truth *truth)
     return sure;
 }
 
-static enum outcome refused(const struct hard_load *c, const struct br_error *err)
+static enum outcome refused(const struct hard_load *c, const struct br_error *why)
 {
-    const bool late = err->status == BR_INTERRUPTED && may_be_refused(c) && !br_test_long();
+    const bool late = why->status == BR_INTERRUPTED && may_be_refused(c) && !br_test_long();
     const bool reason =
-        late || ((err->status == BR_BAD_INPUT || err->status == BR_NOT_FINITE) && *err->message);
+        late || ((why->status == BR_BAD_INPUT || why->status == BR_NOT_FINITE) && *why->message);
     char text[400];
-    snprintf(text, sizeof text, "%s: %.300s", reason ? "refused" : "WRONG", err->message);
+    snprintf(text, sizeof text, "%s: %.300s", reason ? "refused" : "WRONG", why->message);
     tell(c, text);
     return reason ? REFUSED : WRONG;
 }
@@ -185,8 +184,7 @@ static enum outcome refused(const struct hard_load *c, const struct br_error *er
 /* useful: it may not state too much either. */
 static enum outcome try(const struct hard_load *c, bool useful)
 {
-    struct br_error err = {0};
-    struct br_scene scene = {0};
+    OWNED(br_scene) scene = {0};
     struct br_exact *exact = NULL;
     struct patience patience = {clock(), may_be_refused(c) && !br_test_long() ? short_patience
                                                                               : usual_patience};
@@ -206,7 +204,6 @@ static enum outcome try(const struct hard_load *c, bool useful)
     if (outcome == WRONG && getenv("BR_TEST_SHOW"))
         print_message("%s\n", c->text);
     br_exact_free(exact);
-    br_scene_clear(&scene);
     return outcome;
 }
 

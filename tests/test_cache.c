@@ -39,12 +39,11 @@ static struct br_cache open_cache(void)
 /* A run that is over in a moment. Returns whether it was taken. */
 static bool is_taken(struct br_cache *cache)
 {
-    struct br_error err = {0};
     static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
     static const struct br_reading reading = {
         .name = "err", .what = "(.*)", .kind = BR_READING_REGEX};
     static const double one = 4;
-    struct br_numbers numbers = {.rows = 0};
+    OWNED(br_numbers) numbers = {.rows = 0};
     const struct br_orders_request request = {.command = "/bin/echo {n}",
                                               .axis[BR_AXIS_SPACE] = {&cells, &one, 1},
                                               .dimension = 1,
@@ -57,7 +56,6 @@ static bool is_taken(struct br_cache *cache)
     MUST(br_program_run(&request, &numbers, &err));
     assert_true(isfinite(numbers.row[0].number[0]) && numbers.row[0].seconds >= 0);
     const bool taken = numbers.row[0].cached;
-    br_numbers_clear(&numbers);
     return taken;
 }
 

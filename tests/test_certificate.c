@@ -26,7 +26,7 @@ static void record(struct recorded *r, const char *contact, const char *friction
     r->scene.friction.regularisation = mu;
     r->method = br_test_method(NULL, contact, friction);
     r->method.axial_degree = degree;
-    struct br_march *march = br_test_march(&r->scene, N, 100, &r->method);
+    OWNED(br_march) *march = br_test_march(&r->scene, N, 100, &r->method);
     double(*const nodal[2])[SIZE] = {r->axial, r->bending};
     r->step = (struct br_checked_step){.scene = &r->scene, .method = &r->method, .n = N, .k = 0.01};
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -41,7 +41,6 @@ static void record(struct recorded *r, const char *contact, const char *friction
     br_march_load(march, BR_AXIAL, r->axial[4]);
     br_march_load(march, BR_BENDING, r->bending[4]);
     r->step.tip = *br_march_tip(march);
-    br_march_free(march);
 }
 
 static struct br_certificate certify(const struct br_checked_step *step)
@@ -60,14 +59,12 @@ static struct br_certificate limits(void)
 /* The step is refused, by the entry whose description contains `what`. */
 static void assert_detected(struct recorded *r, const char *what)
 {
-    struct br_error err = {0};
     const struct br_certificate certificate = certify(&r->step), most = limits();
     REFUSED(br_certificate_check(&certificate, &most, &err), BR_VERDICT, what);
 }
 
 static void assert_good(struct recorded *r)
 {
-    struct br_error err = {0};
     const struct br_certificate certificate = certify(&r->step), most = limits();
     MUST(br_certificate_check(&certificate, &most, &err));
 }
@@ -317,7 +314,6 @@ TEST(test_not_finite)
 /* The verdict on each entry, at and above its limit, and NaN. */
 TEST(test_verdict)
 {
-    struct br_error err = {0};
     const struct br_certificate most = {1, 2, 3, 4, 5};
     struct br_certificate c = most;
     MUST(br_certificate_check(&c, &most, &err));

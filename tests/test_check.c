@@ -25,7 +25,6 @@ struct made_check {
 /* A rod that is pulled; to be cleared. It may be changed before it is checked. */
 static void made_create(struct made_check *m)
 {
-    struct br_error err = {0};
     *m = (struct made_check){.scene = br_test_bare()};
     m->scene.bending.modelled = false;
     m->scene.axial.load = br_test_load("sin(x)*(1 + t)");
@@ -47,7 +46,6 @@ static void made_clear(struct made_check *m)
 /* Runs the check, again if need be. */
 static void made_run(struct made_check *m, int threads)
 {
-    struct br_error err = {0};
     br_check_clear(&m->check);
     MUST(br_check_run(&m->of, 1, threads, NULL, &err));
 }
@@ -231,8 +229,7 @@ static struct br_old_check as_old(const struct made_check *m, const char *name)
 static void compare(const struct made_check *m, const struct br_old_check *old, bool whole,
                     enum br_severity expected, const char *subject)
 {
-    struct br_comparison c;
-    struct br_error err = {0};
+    OWNED(br_comparison) c;
     MUST(br_compare(&m->check, 1, whole, old, &c, &err));
     const enum br_severity found = c.count ? c.difference[0].severity : BR_SAME;
     if (found != expected || (c.count && !strstr(c.difference[0].subject, subject)))
@@ -240,7 +237,6 @@ static void compare(const struct made_check *m, const struct br_old_check *old, 
                  c.count ? c.difference[0].subject : "", br_severity_names[expected], subject);
     for (size_t i = 1; i < c.count; i++)
         assert_true(c.difference[i - 1].severity >= c.difference[i].severity);
-    br_comparison_clear(&c);
 }
 
 /* What is changed of the earlier check's first case: added to, multiplied or set. The tolerance is
@@ -275,7 +271,7 @@ TEST(test_comparison)
     struct made_check m;
     made_create(&m);
     made_run(&m, 1);
-    struct br_old_check old = as_old(&m, "made");
+    OWNED(br_old_check) old = as_old(&m, "made");
     struct br_case *const first = &old.check->cases[0], sound = *first;
     for (size_t i = 0; i < sizeof moved / sizeof *moved; i++) {
         double *value = (double *)((char *)first + moved[i].offset);
@@ -337,7 +333,6 @@ TEST(test_comparison)
     old.check->name = "other"; /* which is not checked now: that is no loss */
     compare(&m, &old, false, BR_NOTE, "new");
     compare(&m, &old, true, BR_SERIOUS, "gone"); /* or it is, where these are all there are */
-    br_old_check_clear(&old);
     made_clear(&m);
 }
 
@@ -347,7 +342,7 @@ TEST(test_methods)
     struct made_check m;
     made_create(&m);
     made_run(&m, 1);
-    struct br_old_check old = as_old(&m, "made");
+    OWNED(br_old_check) old = as_old(&m, "made");
     struct br_settings *now = &m.of.method[BR_VERIFY_TIME], then;
     for (size_t i = 0; i < now->count; i++) {
         const bool compared = i < BR_METHOD_FIELDS && !br_method_fields[i].unsaid;
@@ -370,7 +365,6 @@ TEST(test_methods)
     strcpy(then.row[BR_METHOD_TOLERANCE].text, "2e-06");
     remember(&old, BR_VERIFY_TIME, &then);
     compare(&m, &old, false, BR_SERIOUS, "made time: another method");
-    br_old_check_clear(&old);
     made_clear(&m);
 }
 
@@ -378,10 +372,9 @@ TEST(test_methods)
 TEST(test_missing_settings)
 {
     struct made_check m;
-    struct br_error err = {0};
     made_create(&m);
     made_run(&m, 1);
-    struct br_old_check old = as_old(&m, "made");
+    OWNED(br_old_check) old = as_old(&m, "made");
     json_t *of_first = json_object_get(json_object_get(old.json, "methods"), "0");
     json_t *time = json_object_get(of_first, "time");
     json_object_del(time, "axial_degree");
@@ -396,7 +389,6 @@ TEST(test_missing_settings)
         REFUSED(br_compare_check(&m.check, 1, &old, &err), BR_BAD_INPUT,
                 "old.json: methods: found no contact of made time");
     }
-    br_old_check_clear(&old);
     made_clear(&m);
 }
 
@@ -404,18 +396,16 @@ TEST(test_missing_settings)
 TEST(test_names)
 {
     struct made_check m;
-    struct br_error err = {0};
     made_create(&m);
     m.check.name = "m\xe4"
                    "de";
     made_run(&m, 1);
-    struct br_old_check old = as_old(&m, "made");
+    OWNED(br_old_check) old = as_old(&m, "made");
     REFUSED(br_compare_check(&m.check, 1, &old, &err), BR_BAD_INPUT, "none of these scenes");
     old.check->name = "m?de"; /* as JSON has it */
     MUST(br_compare_check(&m.check, 1, &old, &err));
     compare(&m, &old, false, BR_SAME, "");
     const struct br_check twice[] = {m.check, m.check};
     REFUSED(br_compare_check(twice, 2, &old, &err), BR_BAD_INPUT, "two scenes are called");
-    br_old_check_clear(&old);
     made_clear(&m);
 }

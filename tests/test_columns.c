@@ -9,8 +9,6 @@
 #include "checks.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 /* Which columns of a table are read. */
 struct columns {
     const char *errors, *values;
@@ -42,15 +40,14 @@ static struct br_numbers read_with(const char *text, const struct columns *colum
 
 static void refuse_with(const char *text, const struct columns *columns, const char *message)
 {
-    struct br_numbers numbers;
+    OWNED(br_numbers) numbers;
     REFUSED(read_table(text, columns, &numbers), BR_BAD_INPUT, message);
-    br_numbers_clear(&numbers);
 }
 
 /* That it has h = 1, 1/2, 1/4 and l2 = 3, 2, 1. */
 static void is_the_table(const char *text)
 {
-    struct br_numbers n = read_with(text, &plain);
+    OWNED(br_numbers) n = read_with(text, &plain);
     assert_int_equal(n.rows, 3);
     assert_int_equal(n.quantities, 1);
     assert_string_equal(n.quantity[0].name, "l2");
@@ -59,7 +56,6 @@ static void is_the_table(const char *text)
         CLOSE(n.row[i].z[BR_AXIS_SPACE], 1 / (double)(1 << i), 0);
         CLOSE(n.row[i].number[0], 3 - (double)i, 0);
     }
-    br_numbers_clear(&n);
 }
 
 TEST(test_formats)
@@ -77,8 +73,13 @@ TEST(test_formats)
 
 TEST(test_names_and_units)
 {
-    struct br_numbers n =
-        read_with("h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,4\n.5,2,2,2\n.25,1,,1\n",
+    OWNED(br_numbers)
+    n = read_with("h [mm],dt (s),f(x) [N/m],\"a
+\"\"b\"\", c\"
+1,4,3,4
+.5,2,2,2
+.25,1,,1
+",
                   &(struct columns){NULL, NULL, 2, "1=h,dt=dt"});
     assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
     assert_string_equal(n.unit[BR_AXIS_TIME], "s");
@@ -90,13 +91,13 @@ TEST(test_names_and_units)
     assert_null(n.quantity[1].unit);
     assert_true(isnan(n.row[2].number[0])); /* an empty field */
     assert_int_equal(n.row[0].line, 3);     /* the heading has two lines */
-    br_numbers_clear(&n);
 }
 
 /* The unit is what stands in the last brackets. */
 TEST(test_units_behind_brackets)
 {
-    struct br_numbers n = read_with(
+    OWNED(br_numbers)
+    n = read_with(
         "h,u(x) (m),u[y] [m/s],e (max) [mm],v [x] (s)\n1,4,3,4,2\n.5,2,2,2,1\n.25,1,1,1,.5\n",
         &plain);
     static const char *const is[][2] = {
@@ -106,7 +107,6 @@ TEST(test_units_behind_brackets)
         assert_string_equal(n.quantity[i].name, is[i][0]);
         assert_string_equal(n.quantity[i].unit, is[i][1]);
     }
-    br_numbers_clear(&n);
 }
 
 TEST(test_resolutions)
@@ -293,17 +293,17 @@ TEST(test_foreign_tables)
 {
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
         char path[200];
-        char *text = NULL;
-        struct br_orders o;
+        FREED char *text = NULL;
+        OWNED(br_orders) o;
         const bool is_file = !strchr(foreign[i].table, '\n');
         snprintf(path, sizeof path, "%s/tests/data/tables/%s", getenv("BEAMRATE_DATA"),
                  is_file ? foreign[i].table : "");
         if (is_file)
             MUST(br_text_load(path, BR_LONGEST_TABLE, "table", &text, &err));
-        struct br_numbers n = read_with(
-            is_file ? text : foreign[i].table,
-            foreign[i].names ? &(struct columns){NULL, NULL, 2, foreign[i].names} : &plain);
-        free(text);
+        OWNED(br_numbers)
+        n = read_with(is_file ? text : foreign[i].table,
+                      foreign[i].names ? &(struct columns){NULL, NULL, 2, foreign[i].names}
+                                       : &plain);
         assert_string_equal(n.taken, foreign[i].taken);
         assert_true(n.assumed == !!strstr(n.taken, "assumed"));
         MUST(br_orders_find(&n, 2, &o, &err));
@@ -314,8 +314,6 @@ TEST(test_foreign_tables)
         if (!order || !(fabs(order->value - foreign[i].order) <= 0.02))
             fail_msg("%s: %s: order %g, expected %g", foreign[i].table, foreign[i].quantity,
                      order ? order->value : (double)NAN, foreign[i].order);
-        br_orders_clear(&o);
-        br_numbers_clear(&n);
     }
 }
 
@@ -391,14 +389,13 @@ TEST(test_refused_tables)
 /* The orders of the quantities, "l2 2.00, h1 1.00", and what is read. */
 static void describe(const struct br_numbers *n, char text[2000])
 {
-    struct br_orders o;
+    OWNED(br_orders) o;
     size_t used = 0;
     MUST(br_orders_find(n, 2, &o, &err));
     for (size_t i = 0; i < o.count; i++)
         used += (size_t)snprintf(text + used, 2000 - used, "%s%s %.2f", i ? ", " : "",
                                  n->quantity[i].name, o.of[i].line->observed.order.value);
     snprintf(text + used, 2000 - used, "; %s", n->taken);
-    br_orders_clear(&o);
 }
 
 /* Three tables of each kind that was read wrongly once: a text, what is said by hand, and what is
@@ -418,7 +415,7 @@ static void read_kind(char *row)
         q.values = by_hand + strlen(value);
     else if (strcmp(by_hand, "-") != 0)
         q.columns = by_hand;
-    struct br_numbers n;
+    OWNED(br_numbers) n;
     if (strncmp(expected, refused, strlen(refused)) == 0)
         REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, expected + strlen(refused));
     else {
@@ -429,7 +426,6 @@ static void read_kind(char *row)
         if (strncmp(found, expected, strlen(expected)) != 0)
             fail_msg("found '%s', expected '%s'", found, expected);
     }
-    br_numbers_clear(&n);
 }
 
 /* Errors over a degree have no order; each degree divides them by a factor. */
@@ -451,7 +447,7 @@ TEST(test_degrees)
                                       "p,e\n2,.1\n4,.001\n6,.00001\n",
                                       "p,e\n1,.1\n2,.01\n3,.001\n4,1e-4\n5,1e-5\n6,1e-6\n"};
     for (size_t i = 0; i < sizeof few / sizeof *few; i++) {
-        char *text = strdup(few[i]);
+        FREED char *text = strdup(few[i]);
         struct br_orders_request r = {.path = q.path, .table = text};
         MUST(br_orders_read(&r, &n, &err));
         MUST(br_orders_find(&n, 0, &o, &err));
@@ -459,7 +455,6 @@ TEST(test_degrees)
         assert_true(digits.low > 3 && digits.low < 9.5 && digits.high > 10.5 && digits.high < 25);
         br_orders_clear(&o);
         br_numbers_clear(&n);
-        free(text);
     }
     static const char *const powers[] = {
         "p,e\n1,5\n2,.1\n3,.01\n4,.001\n5,1e-4\n6,1e-5\n7,1e-6\n",  /* the first is none */
@@ -467,14 +462,13 @@ TEST(test_degrees)
         "p,e\n1,6.25e-2\n2,1.2346e-2\n3,3.9063e-3\n4,1.6e-3\n5,7.716e-4\n6,4.1649e-4\n"
         "7,2.4414e-4\n8,1.5242e-4\n"}; /* (p + 1)^-4 */
     for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
-        char *text = strdup(powers[i]);
+        FREED char *text = strdup(powers[i]);
         struct br_orders_request r = {.path = q.path, .table = text};
         MUST(br_orders_read(&r, &n, &err));
         MUST(br_orders_find(&n, 0, &o, &err));
         assert_true(isnan(o.of[0].line[0].observed.factor.value));
         br_orders_clear(&o);
         br_numbers_clear(&n);
-        free(text);
     }
     q.table = (char *)"p,drag\n1,1.5\n2,1.25\n3,1.125\n4,1.0625\n5,1.03125\n";
     q.values = (char *)"drag"; /* values over it have a limit, but no order and no index */

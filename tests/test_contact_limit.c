@@ -45,12 +45,11 @@ TEST(test_flexibility)
         method.axial_degree = 1 + trial % 2;
         const size_t n = 1 + br_test_index(&random, 60);
         const size_t steps = 1 + br_test_index(&random, 10000);
-        struct br_march *march = br_test_march(&scene, n, steps, &method);
+        OWNED(br_march) *march = br_test_march(&scene, n, steps, &method);
         const double k = scene.duration / (double)steps;
         const struct br_field field = field_of(&scene, n, k, method.axial_degree);
         const double solved = k * br_march_compliance(march, BR_AXIAL);
         CLOSE(br_tip_flexibility(&field, 1 / k) / solved, 1, 1e-13);
-        br_march_free(march);
     }
 }
 
@@ -135,12 +134,11 @@ static double deviation(const struct br_scene *scene, int degree, size_t steps, 
     pressed.axial.tip_force.constant = load;
     struct br_method method = br_test_method("plain", "lagged", NULL);
     method.axial_degree = degree;
-    struct br_march *march = br_test_march(&pressed, 5, 1000, &method);
+    OWNED(br_march) *march = br_test_march(&pressed, 5, 1000, &method);
     br_test_advance(march, steps - 1);
     *before = br_march_tip_displacement(march, BR_AXIAL) / strain - scene->length;
     br_test_advance(march, steps);
     const double now = br_march_tip_displacement(march, BR_AXIAL) / strain - scene->length;
-    br_march_free(march);
     br_function_free(&pressed.axial.displacement);
     return now;
 }
@@ -175,7 +173,6 @@ TEST(test_marches)
 static void check_rest(const struct br_time_scheme *scheme, double stiffness, size_t steps)
 {
     static struct br_run_report report;
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.bending.modelled = false;
     scene.density = 1e-4;
@@ -285,11 +282,10 @@ TEST(test_touched)
     const struct br_method method = br_test_method(NULL, "lagged", NULL);
     for (int touching = 0; touching < 2; touching++) {
         scene.contact.gap = touching ? 0.1 : 10;
-        struct br_march *march = br_test_march(&scene, 10, 100, &method);
+        OWNED(br_march) *march = br_test_march(&scene, 10, 100, &method);
         assert_false(br_march_contact_unstable(march));
         br_test_advance(march, 100);
         assert_int_equal(br_march_contact_unstable(march), touching);
-        br_march_free(march);
     }
 }
 
@@ -299,12 +295,11 @@ TEST(test_touched)
 static double added(const struct br_scene *scene, size_t n, size_t steps)
 {
     const struct br_method method = br_method_default();
-    struct br_error err = {0};
     struct br_energy start, now;
     struct br_work work;
     struct br_energy_meter *meter;
     double share = 0;
-    struct br_march *march = br_test_march(scene, n, steps, &method);
+    OWNED(br_march) *march = br_test_march(scene, n, steps, &method);
     MUST(br_energy_meter_create(&meter, march, scene, &method, &err));
     for (size_t i = 0; i < steps; i++) {
         MUST(br_march_step(march, &err));
@@ -315,7 +310,6 @@ static double added(const struct br_scene *scene, size_t n, size_t steps)
             share = fmax(share, br_energy_added(&work, BR_AXIAL) / put_in);
     }
     br_energy_meter_free(meter);
-    br_march_free(march);
     return share;
 }
 
@@ -323,7 +317,6 @@ static bool is_warned(const struct br_scene *scene, const char *contact, size_t 
 {
     struct br_method method = br_method_default();
     struct br_warnings w = {0};
-    struct br_error err;
     method.contact = br_contact_rule_find(contact);
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = 40, .steps = steps};
     MUST(br_check_ahead_cheaply(&o, &w, &err));
@@ -338,10 +331,9 @@ TEST(test_bounce)
     static const size_t steps[] = {200, 1000};
     char **name;
     size_t count, warned[2] = {0};
-    struct br_error err;
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
-        struct br_scene scene = br_test_bundled(name[i]);
+        OWNED(br_scene) scene = br_test_bundled(name[i]);
         for (size_t j = 0; j < 2 && scene.contact.modelled; j++) {
             struct br_scene axial;
             assert_false(is_warned(&scene, "implicit", steps[j]));
@@ -353,7 +345,6 @@ TEST(test_bounce)
             assert_true(share > 0.003);
             warned[j]++;
         }
-        br_scene_clear(&scene);
     }
     br_scene_list_free(name, count);
     assert_true(warned[0] >= 2 && warned[1] == 1);

@@ -84,7 +84,6 @@ TEST(test_bounds)
 TEST(test_refusals)
 {
     const struct br_method method = bdf3();
-    struct br_error err = {0};
     struct br_march *march;
     struct br_scene s = vibrating(1e-3);
     REFUSED(br_march_create(&march, &s, 10, 10, &method, &err), BR_BAD_INPUT,

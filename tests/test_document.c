@@ -15,8 +15,6 @@
 #include "checks.h"
 #include "tables/document.h"
 
-static struct br_error err;
-
 /* What is awkward. A text stays on its line in all formats but JSON, and what cannot be seen
  * becomes visible. */
 static const char *const texts[] = {
@@ -121,7 +119,7 @@ static void build(struct br_document *d)
 /* What a format prints (NULL: the terminal), of one table where it has a file each; to be freed. */
 static char *printed(const struct br_document_format *format, const char *table)
 {
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     const struct br_document_table *t;
     char *text = NULL;
     size_t size, block = 0;
@@ -134,7 +132,6 @@ static char *printed(const struct br_document_format *format, const char *table)
     else
         MUST(br_document_show(out, &d, 1, &err));
     assert_int_equal(fclose(out), 0);
-    br_document_clear(&d);
     return text;
 }
 
@@ -180,7 +177,7 @@ static void print_pages(FILE *out)
 /* Every format; of one that has a file for each table, each. */
 static void print_formats(FILE *out)
 {
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     build(&d);
     for (size_t f = 0; br_document_formats[f]; f++) {
         const struct br_document_format *format = br_document_formats[f];
@@ -196,7 +193,6 @@ static void print_formats(FILE *out)
     }
     fputs("==== the terminal\n", out);
     MUST(br_document_show(out, &d, 1, &err));
-    br_document_clear(&d);
     fputs("==== pages\n", out);
     print_pages(out);
 }
@@ -348,7 +344,7 @@ static bool is_row(char *line, const struct drawn *w, size_t t, size_t i)
 static void rows_are_in(const struct br_document_format *format, const struct drawn *w,
                         struct br_document *d)
 {
-    char *text = NULL;
+    FREED char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     MUST(br_document_print(out, format, d, NULL, &err));
@@ -361,10 +357,9 @@ static void rows_are_in(const struct br_document_format *format, const struct dr
         if (!strstr(line, name))
             continue;
         strip_marks(line);
-        char *copy = strdup(line);
+        FREED char *copy = strdup(line);
         if (!is_row(line, w, t, i))
             fail_msg("%s has another row %zu of table %zu: %s", format->name, i, t, copy);
-        free(copy);
         if (++i == w->rows[t]) {
             i = 0;
             t++;
@@ -372,7 +367,6 @@ static void rows_are_in(const struct br_document_format *format, const struct dr
     }
     if (t < w->tables)
         fail_msg("%s lacks row %zu of table %zu", format->name, i, t);
-    free(text);
 }
 
 static void csv_is(const struct drawn *w, struct br_document *d)
@@ -399,7 +393,7 @@ static void csv_is(const struct drawn *w, struct br_document *d)
 
 static void json_is(const struct drawn *w, struct br_document *d)
 {
-    char *text = NULL;
+    FREED char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     MUST(br_document_print(out, &br_document_json, d, NULL, &err));
@@ -430,7 +424,6 @@ static void json_is(const struct drawn *w, struct br_document *d)
         }
     }
     json_decref(root);
-    free(text);
 }
 
 TEST(formats_have_the_same_cells)
@@ -445,13 +438,12 @@ TEST(formats_have_the_same_cells)
     print_message("# seed %llu\n", (unsigned long long)seed);
     for (size_t i = 0; i < DRAWN; i++) {
         struct br_test_random r = br_test_random_of(seed, i);
-        struct br_document d = {0};
+        OWNED(br_document) d = {0};
         draw_document(&w, &d, &r);
         for (size_t f = 0; f < sizeof people / sizeof *people; f++)
             rows_are_in(people[f], &w, &d);
         csv_is(&w, &d);
         json_is(&w, &d);
-        br_document_clear(&d);
     }
 }
 
@@ -486,12 +478,12 @@ TEST(test_first_columns)
         {&br_document_csv, {"pc,one [m],two [s]\n", "one [m],two\n8,9\n", "one [m],two\n8,9\n"}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_document d = {0};
+        OWNED(br_document) d = {0};
         size_t block = 0, size;
         build_first(&d);
         for (size_t t = 0; t < 3; t++) {
             const struct br_document_table *table = br_document_next_table(&d, &block);
-            char *text = NULL;
+            FREED char *text = NULL;
             FILE *out = open_memstream(&text, &size);
             MUST(br_document_print(out, rows[i].format, &d, rows[i].format->by_table ? table : NULL,
                                    &err));
@@ -500,9 +492,7 @@ TEST(test_first_columns)
                 (rows[i].format->by_table && strstr(text, rows[i].text[t]) != text))
                 fail_msg("%s, %zu: found '%s', expected '%s'", rows[i].format->name, t, text,
                          rows[i].text[t]);
-            free(text);
         }
-        br_document_clear(&d);
     }
 }
 
@@ -540,7 +530,7 @@ static void build_wide(struct br_document *d)
 /* Shows the document on a terminal of so many columns (0: not known), at most 8191 bytes. */
 static void show_on_terminal(int columns, char text[8192])
 {
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     struct winsize size = {.ws_col = (unsigned short)columns};
     const int ours = posix_openpt(O_RDWR | O_NOCTTY);
     assert_true(ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0);
@@ -555,7 +545,6 @@ static void show_on_terminal(int columns, char text[8192])
     build_wide(&d);
     MUST(br_document_show(out, &d, 1, &err));
     assert_int_equal(fclose(out), 0);
-    br_document_clear(&d);
     size_t length = 0;
     for (ssize_t got; (got = read(ours, text + length, 8191 - length)) > 0;)
         length += (size_t)got;
@@ -585,7 +574,7 @@ TEST(test_width)
 {
     static char text[8192];
     size_t wide[256], narrow[256];
-    char *piped = NULL;
+    FREED char *piped = NULL;
     size_t size;
     struct br_document d = {0};
     FILE *out = open_memstream(&piped, &size);
@@ -608,7 +597,6 @@ TEST(test_width)
         count_letters(text, narrow);
         assert_memory_equal(wide, narrow, sizeof wide);
     }
-    free(piped);
     static const char at_50[] = "T\n"
                                 "verdict  name                a    text\n"
                                 "                       heading    \n"
@@ -759,7 +747,7 @@ TEST(test_built_wrongly)
         "no row for the verdict 'v'",
     };
     for (size_t i = 0; i < sizeof messages / sizeof *messages; i++) {
-        struct br_document d = {0};
+        OWNED(br_document) d = {0};
         br_document_begin(&d, "wrong", "f", 1, "c");
         MUST(br_document_status(&d, &err));
         put_x(&d, "t", "T");
@@ -770,7 +758,6 @@ TEST(test_built_wrongly)
             REFUSED(br_document_print(stderr, br_document_formats[f], &d, NULL, &err), BR_IO,
                     messages[i]);
         REFUSED(br_document_show(stderr, &d, 1, &err), BR_IO, "the report wrong was built wrongly");
-        br_document_clear(&d);
     }
 }
 
@@ -800,7 +787,7 @@ TEST(test_no_sign_of_zero)
         {"-0e -... -0.01 -", "-0e -... -0.01 -"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_document d = {0};
+        OWNED(br_document) d = {0};
         br_document_begin(&d, "zero", "f", 1, "c");
         br_put_answer(&d, "%s", rows[i][0]);
         BR_FACT(&d, br_number(-1e-9), .key = "a", .heading = "a", .format = "%.3f");
@@ -810,20 +797,18 @@ TEST(test_no_sign_of_zero)
         br_put_shown(&d, "%s", rows[i][0]);
         assert_string_equal(br_document_shown(&d.block[0].what, &d.block[0].cell, buffer),
                             rows[i][1]);
-        br_document_clear(&d);
     }
 }
 
 /* Two values of one name would be one in JSON. */
 TEST(test_two_values)
 {
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     br_document_begin(&d, "twice", "f", 1, "c");
     br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(1));
     br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(2));
     REFUSED(br_document_print(stderr, &br_document_json, &d, NULL, &err), BR_IO,
             "the report twice has two values for 'b'");
-    br_document_clear(&d);
 }
 
 /* ---- without memory ---- */
@@ -850,9 +835,9 @@ static void check_whole(const char *text, const char *whole, long failed)
 static enum br_status print_without(const struct br_document_format *format, const char *whole,
                                     long fails, bool jansson)
 {
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     size_t block = 0, size;
-    char *text = NULL;
+    FREED char *text = NULL;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     until = jansson ? fails : -1;
@@ -867,8 +852,6 @@ static enum br_status print_without(const struct br_document_format *format, con
         REFUSED(status, BR_NO_MEMORY, "out of memory");
     else
         check_whole(text, whole, fails);
-    br_document_clear(&d);
-    free(text);
     return status;
 }
 
@@ -876,14 +859,13 @@ static enum br_status print_without(const struct br_document_format *format, con
 static void sweep(const struct br_document_format *format, bool jansson, long least)
 {
     const bool by_table = format && format->by_table;
-    char *whole = printed(format, by_table ? "all" : NULL);
+    FREED char *whole = printed(format, by_table ? "all" : NULL);
     long i = 0;
     while (print_without(format, whole, i, jansson))
         assert_true(++i < 10000);
     if (i < least)
         fail_msg("%s: %ld allocations failed, expected at least %ld",
                  format ? format->name : "the terminal", i, least);
-    free(whole);
 }
 
 TEST(test_no_memory)

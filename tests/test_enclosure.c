@@ -164,7 +164,6 @@ static size_t check_trees(struct br_test_random *r, enum br_operation o, int dep
         struct br_tree_builder b = {0};
         struct br_tree tree, copy;
         struct br_function f;
-        struct br_error err;
         const unsigned root = any_node(r, &b, o, depth);
         struct br_tree_builder again = {0};
         const unsigned second = br_tree_graft(&again, &b.tree, root);
@@ -207,10 +206,9 @@ TEST(test_kinks)
                                        "(x < t ? x : t) - x", "sign(x)*x - abs(x)"};
     struct br_test_random r = {7};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_tree tree;
-        struct br_error err;
+        OWNED(br_tree) tree;
         MUST(br_expression_parse(rows[i], &tree, &err));
-        struct br_function f = br_test_function(rows[i]);
+        OWNED(br_function) f = br_test_function(rows[i]);
         for (size_t k = 0; k < cases(300); k++) {
             const double x = br_test_uniform(&r, -1, 0.1), t = br_test_uniform(&r, -1, 0.1),
                          w = br_test_log_uniform(&r, 1e-3, 2);
@@ -221,8 +219,6 @@ TEST(test_kinks)
             for (int j = 0; j < 4; j++)
                 check_tree(&tree, &f, box, bound, &r);
         }
-        br_tree_clear(&tree);
-        br_function_free(&f);
     }
 }
 
@@ -230,7 +226,7 @@ TEST(test_kinks)
  */
 TEST(test_quadratic)
 {
-    struct br_function f = br_test_function("(x - t)*exp(x)*sin(3*t) - x^2*t + x*t^3 - x*x*x");
+    OWNED(br_function) f = br_test_function("(x - t)*exp(x)*sin(3*t) - x^2*t + x*t^3 - x*x*x");
     double before = 0;
     for (int k = 6; k <= 16; k++) {
         const double w = ldexp(1, -k);
@@ -251,7 +247,6 @@ TEST(test_quadratic)
             AT_MOST(excess, before / 3 + 1e-14);
         before = excess;
     }
-    br_function_free(&f);
 }
 
 /* ---- Taylor coefficients ---- */
@@ -318,7 +313,7 @@ static void check_series(const char *text, function_of *g, double shift, struct 
     iv at_point[ORDER + 1], in_box[ORDER + 1];
     real c[ORDER + 1], error[ORDER + 1];
     snprintf(full, sizeof full, text, shift);
-    struct br_function f = br_test_function(full);
+    OWNED(br_function) f = br_test_function(full);
     for (size_t i = 0; i < cases(20); i++) {
         const double t = br_test_uniform(r, 0, 0.2), w = br_test_log_uniform(r, 1e-12, 1e-2);
         const struct br_box at = {{0, 0}, {t, t}}, around = {{0, 0}, {t - w, t + w}};
@@ -334,7 +329,6 @@ static void check_series(const char *text, function_of *g, double shift, struct 
             AT_MOST(p.high - p.low, 1e-11 * (magnitude(p) + pow(10, k)));
         }
     }
-    br_function_free(&f);
 }
 
 TEST(test_taylor)
@@ -368,10 +362,9 @@ TEST(test_not_smooth)
         "t^1.5",        "1/t",           "asin(t)", "acosh(1 + t)", "tan(pi*t)", "t > 0.5 ? t : 1"};
     const struct br_box box = {{0, 1}, {0, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_function f = br_test_function(rows[i]);
+        OWNED(br_function) f = br_test_function(rows[i]);
         iv c[4];
         assert_false(br_function_taylor(&f, BR_T, box, 3, c));
-        br_function_free(&f);
     }
     static const struct br_function_ops none = {0};
     const struct br_function unknown = {.ops = &none}, constant = {.constant = 3};

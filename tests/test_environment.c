@@ -41,10 +41,8 @@ static struct br_method method_of(size_t solver, size_t scheme)
 
 static bool goes(const struct br_scene *s, size_t n, size_t steps, const struct br_method *method)
 {
-    struct br_error err;
-    struct br_march *march;
+    OWNED(br_march) * march;
     const enum br_status status = br_march_create(&march, s, n, steps, method, &err);
-    br_march_free(march);
     return status == BR_OK;
 }
 
@@ -109,13 +107,12 @@ enum { SCENES = sizeof scenes / sizeof *scenes };
 
 TEST(test_flags)
 {
-    struct br_error err = {0};
     char **names;
     size_t count;
     MUST(br_scene_list(&names, &count, &err));
     assert_true(count > 5);
     for (size_t i = 0; i < count; i++) {
-        struct br_scene s = br_test_bundled(names[i]);
+        OWNED(br_scene) s = br_test_bundled(names[i]);
         EACH_METHOD(solver, scheme)
         {
             const struct br_method method = method_of(solver, scheme);
@@ -126,7 +123,6 @@ TEST(test_flags)
                 fail_msg("%s, %s, %s: flags %x", names[i], method.solver->name, method.scheme->name,
                          (unsigned)bad_flags());
         }
-        br_scene_clear(&s);
     }
     br_scene_list_free(names, count);
 }
@@ -174,13 +170,12 @@ static void compare_modes(const struct br_scene *s, const char *name,
 TEST(test_rounding)
 {
     for (size_t i = 0; i < SCENES; i++) {
-        struct br_scene s = br_test_bundled(scenes[i]);
+        OWNED(br_scene) s = br_test_bundled(scenes[i]);
         EACH_METHOD(solver, scheme)
         {
             const struct br_method method = method_of(solver, scheme);
             compare_modes(&s, scenes[i], &method);
         }
-        br_scene_clear(&s);
     }
 }
 
@@ -188,11 +183,10 @@ static void certify(const struct br_scene *s, const char *name, const struct br_
                     const char *mode)
 {
     enum { N = 24, STEPS = 50 };
-    struct br_error err = {0};
     struct br_step_checker *checker;
     if (!goes(s, N, STEPS, method))
         return;
-    struct br_march *march = br_test_march(s, N, STEPS, method);
+    OWNED(br_march) *march = br_test_march(s, N, STEPS, method);
     const struct br_certificate limits = br_certificate_limits(
         method->scheme, N, br_test_slack() * one_sided * br_march_round_off(march));
     MUST(br_step_checker_create(&checker, march, s, method, &err));
@@ -204,13 +198,12 @@ static void certify(const struct br_scene *s, const char *name, const struct br_
                      method->scheme->name, mode, step, err.message);
     }
     br_step_checker_free(checker);
-    br_march_free(march);
 }
 
 TEST(test_certificates)
 {
     for (size_t i = 0; i < SCENES; i++) {
-        struct br_scene s = br_test_bundled(scenes[i]);
+        OWNED(br_scene) s = br_test_bundled(scenes[i]);
         for (size_t scheme = 0; br_time_schemes[scheme]; scheme++)
             for (size_t m = 0; m < sizeof modes / sizeof *modes; m++) {
                 const struct br_method method = method_of((scheme + i) % 2, scheme);
@@ -218,7 +211,6 @@ TEST(test_certificates)
                 certify(&s, scenes[i], &method, modes[m].name);
                 fesetround(FE_TONEAREST);
             }
-        br_scene_clear(&s);
     }
 }
 
@@ -249,7 +241,6 @@ static struct br_scene any_scene(struct br_test_random *r)
 static void compare_units(const struct br_scene *s, const struct br_method *method, size_t n,
                           const struct br_units_change *u, bool exact)
 {
-    struct br_error err = {0};
     struct br_scene other;
     if (!goes(s, n, 30, method))
         return;

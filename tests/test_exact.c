@@ -24,14 +24,12 @@ static void check_golden(const struct br_linear_solver *solver, size_t most,
     for (size_t i = 0; i < count; i++) {
         if (rows[i].n > (br_test_quick() ? 400 : most))
             continue;
-        struct br_scene scene = br_test_bundled(rows[i].scene);
-        struct br_march *march = br_test_march(&scene, rows[i].n, rows[i].steps, &method);
+        OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
+        OWNED(br_march) *march = br_test_march(&scene, rows[i].n, rows[i].steps, &method);
         const double predicted = br_march_round_off(march);
-        br_march_free(march);
         const struct br_test_end end = br_test_run(&scene, rows[i].n, rows[i].steps, &method);
         AT_MOST(br_test_deviation(&end, &rows[i].end),
                 limit ? limit(rows[i].scene) * br_test_slack() : predicted);
-        br_scene_clear(&scene);
     }
 }
 
@@ -61,19 +59,17 @@ TEST(test_golden)
 static void check_scheme(const char *name, const struct br_time_scheme *scheme, int degree)
 {
     enum { N = 40, STEPS = 24 };
-    struct br_scene scene = br_test_bundled(name);
+    OWNED(br_scene) scene = br_test_bundled(name);
     struct br_method method = br_test_method(NULL, "implicit", "exact");
     method.solver = &br_long_plain;
     method.scheme = scheme;
     method.axial_degree = degree;
-    struct br_march *march = br_test_march(&scene, N, STEPS, &method);
+    OWNED(br_march) *march = br_test_march(&scene, N, STEPS, &method);
     struct dense_march *dense = dense_follow(march, &scene, &method);
     br_test_advance(march, STEPS);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && dense; kind++)
         AT_MOST(dense_deviation(dense, kind, 0), 2e-14 * br_test_slack());
     dense_free(dense);
-    br_march_free(march);
-    br_scene_clear(&scene);
 }
 
 TEST(test_long_schemes)
@@ -98,7 +94,7 @@ TEST(test_other_resolutions)
         {800, 100000, "lagged", NAN, -0.0715938939323, 1e-11},
         {1000000, 100, "lagged", 0.0432626953501273, -0.0704646705265127, 2e-11},
     };
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         if (br_test_quick() && rows[i].n * rows[i].steps > 100000)
             continue;
@@ -108,5 +104,4 @@ TEST(test_other_resolutions)
         if (!isnan(rows[i].u))
             CLOSE(end.u_tip, rows[i].u, rows[i].tolerance * fabs(rows[i].u));
     }
-    br_scene_clear(&scene);
 }

@@ -11,7 +11,7 @@
 /* The derivatives belong together: each is the integral of the next. */
 TEST(test_derivatives)
 {
-    struct br_scene scene = br_test_bundled("example1");
+    OWNED(br_scene) scene = br_test_bundled("example1");
     struct solved solved = solve(&scene, 1e-10);
     br_exact_at(solved.exact, 0.6, solved.state);
     const double x = 0.4, h = 1e-3;
@@ -26,14 +26,12 @@ TEST(test_derivatives)
             assert_near(difference / (12 * h), expected, 1e-8 * (1 + fabs(expected)));
         }
     release(&solved);
-    br_scene_clear(&scene);
 }
 
 static void refuses(const struct br_scene *scene, struct br_exact_options options,
                     enum br_status expected, const char *text)
 {
     struct br_exact *exact = NULL;
-    struct br_error err = {0};
     assert_int_equal(br_exact_create(&exact, scene, &options, &err), expected);
     assert_null(exact);
     assert_non_null(strstr(err.message, text));
@@ -48,7 +46,7 @@ static double f_nan(const double *p, double x, double t)
 TEST(test_refusals)
 {
     struct formula bad = {f_nan, {0}};
-    struct br_scene good = br_test_bundled("example3");
+    OWNED(br_scene) good = br_test_bundled("example3");
     struct br_scene s = good;
     s.bending.load = (struct br_load){{{formula_function(&bad), {.constant = 1}}}};
     refuses(&s, (struct br_exact_options){0}, BR_NOT_FINITE, "not finite");
@@ -83,7 +81,6 @@ TEST(test_refusals)
     assert_int_equal(br_exact_projection_create(&none, solved.exact, &high, &mesh, NULL),
                      BR_BAD_INPUT);
     release(&solved);
-    br_scene_clear(&good);
 }
 
 /* Shared by those who would get the same one, and by nobody else. */
@@ -112,7 +109,7 @@ TEST(test_shared)
     br_scene_clear(&scene);
 }
 
-static enum br_status solve_and_project(const void *scene, struct br_error *err)
+static enum br_status solve_and_project(const void *scene, struct br_error *why)
 {
     const struct br_exact_options options = {.tolerance = 1e-4};
     const struct br_exact_quantity part = {BR_BENDING, false, 0};
@@ -120,11 +117,11 @@ static enum br_status solve_and_project(const void *scene, struct br_error *err)
     struct br_exact *exact = NULL;
     struct br_exact_state *state = NULL;
     struct br_exact_projection *projection = NULL;
-    enum br_status status = br_exact_create(&exact, scene, &options, err);
+    enum br_status status = br_exact_create(&exact, scene, &options, why);
     if (!status)
-        status = br_exact_state_create(&state, exact, err);
+        status = br_exact_state_create(&state, exact, why);
     if (!status)
-        status = br_exact_projection_create(&projection, exact, &part, &mesh, err);
+        status = br_exact_projection_create(&projection, exact, &part, &mesh, why);
     br_exact_projection_free(projection);
     br_exact_state_free(state);
     br_exact_free(exact);
@@ -133,9 +130,8 @@ static enum br_status solve_and_project(const void *scene, struct br_error *err)
 
 TEST(test_allocations)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     br_test_without_memory(solve_and_project, &scene, 50);
-    br_scene_clear(&scene);
 }
 
 static void *read_all(void *data)
@@ -155,7 +151,7 @@ static void *read_all(void *data)
 
 TEST(test_threads)
 {
-    struct br_scene scene = br_test_bundled("example4");
+    OWNED(br_scene) scene = br_test_bundled("example4");
     struct solved solved = solve(&scene, 1e-8);
     pthread_t thread[4];
     double *sum[4];
@@ -171,5 +167,4 @@ TEST(test_threads)
     for (size_t i = 0; i < 4; i++)
         free(sum[i]);
     release(&solved);
-    br_scene_clear(&scene);
 }

@@ -96,7 +96,7 @@ static void check_event(const struct br_exact_event *event, double t, enum br_ph
 /* The moment balance gives c w' + a w = (L^3 / 3) (3/8 f L - lambda) at the tip. */
 TEST(test_slider)
 {
-    struct br_scene s = {.length = 1.5, .duration = 10};
+    OWNED(br_scene) s = {.length = 1.5, .duration = 10};
     s.bending = (struct br_scene_field){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.bending.load = uniform(20, "sin(3*t)");
     s.friction = (struct br_friction){BR_TRESCA, 5, 0};
@@ -127,13 +127,12 @@ TEST(test_slider)
     assert_int_equal(n, count);
     assert_true(count > 15);
     release(&solved);
-    br_scene_clear(&s);
 }
 
 /* c u' + a u = f L^2 / 2 - p L at the tip. */
 TEST(test_bouncing)
 {
-    struct br_scene s = {.length = 1.5, .duration = 10};
+    OWNED(br_scene) s = {.length = 1.5, .duration = 10};
     s.axial = (struct br_scene_field){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.axial.load = uniform(20, "sin(5*t)");
     s.contact = (struct br_contact){true, 0.3, 50};
@@ -164,13 +163,12 @@ TEST(test_bouncing)
     assert_int_equal(n, count);
     assert_true(count > 10);
     release(&solved);
-    br_scene_clear(&s);
 }
 
 /* A slip that a constant load drives comes to rest without an end. */
 TEST(test_slip_to_rest)
 {
-    struct br_scene s = {.length = 1, .duration = 100, .density = 0.1};
+    OWNED(br_scene) s = {.length = 1, .duration = 100, .density = 0.1};
     s.bending = (struct br_scene_field){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.bending.load = uniform(8, "1");
     s.friction = (struct br_friction){BR_TRESCA, 1, 0};
@@ -183,5 +181,4 @@ TEST(test_slip_to_rest)
     assert_near(state->tip[BR_BENDING].displacement, (3.0 / 8 * 8 - 1) / (3 * 4), 1e-13);
     assert_near(state->friction_force, 1, 0);
     release(&solved);
-    br_scene_clear(&s);
 }

@@ -185,7 +185,6 @@ TEST(test_rounded_times)
     br_function_free(&scene.axial.load.term[0].space);
 
     struct br_exact *exact;
-    struct br_error err;
     const struct br_exact_options modest = {.tolerance = 1e-9, .acceptable = 1e-3};
     scene.axial.load = br_test_load("cos(x*t)*exp(-((t-1)*1e9)^2)*(1-2*((t-1)*1e9)^2)*1e16");
     REFUSED(br_exact_create(&exact, &scene, &modest, &err), BR_NOT_FINITE,
@@ -198,14 +197,13 @@ TEST(test_rounded_times)
 /* Over a long stick the modes must go on adding up to the tip that is held. */
 TEST(test_held)
 {
-    struct br_scene scene = br_test_bundled("example4");
+    OWNED(br_scene) scene = br_test_bundled("example4");
     struct solved s = solve(&scene, 1e-10);
     br_exact_at(s.exact, 2.1, s.state);
     assert_near(value_of(&s, w, 1), s.state->tip[BR_BENDING].displacement, 1e-14);
     assert_near(value_of(&s, w_t, 1), 0, 3e-14);
     assert_near(s.state->tip[BR_BENDING].velocity, 0, 0);
     release(&s);
-    br_scene_clear(&scene);
 }
 
 /* Values at t = 1, and the last event: example 3 lets go at 0.8 s, example 1 slips first, and then
@@ -231,7 +229,7 @@ TEST(test_examples)
         {"example3", NAN, -0.24875, 5e-15, 2, {BR_STICK, BR_SLIP_DOWN}, 0.8, 1e-12},
     };
     for (size_t i = 0; i < 3; i++) {
-        struct br_scene scene = br_test_bundled(rows[i].example);
+        OWNED(br_scene) scene = br_test_bundled(rows[i].example);
         struct solved s = solve(&scene, 1e-10);
         size_t count;
         const struct br_exact_event *event = br_exact_events(s.exact, &count);
@@ -251,7 +249,6 @@ TEST(test_examples)
             assert_near(event[count - 1].error, 0, 1e-12);
         }
         release(&s);
-        br_scene_clear(&scene);
     }
 }
 
@@ -271,7 +268,7 @@ static struct br_scene bare_scene(double density)
 TEST(test_inertia)
 {
     static const char stress[] = "(40*t^3+8*3*t^2)"; /* a q + c q' for q = t^3 */
-    struct br_scene scene = bare_scene(2);
+    OWNED(br_scene) scene = bare_scene(2);
     scene.axial.load = br_test_load(text_of("sin(x)*(12*t+%s)", stress).s);
     scene.axial.tip_force = br_test_function(text_of("cos(1.3)*%s", stress).s);
     scene.bending.load = br_test_load(text_of("12*t*(1-cos(x))-cos(x)*%s", stress).s);
@@ -292,7 +289,6 @@ TEST(test_inertia)
     assert_near(br_exact_report(s.exact, BR_BENDING).largest.strain_rate, largest, 1e-6);
     assert_true(r.error.strain_rate >= 0 && r.error.strain_rate <= 1e-6);
     release(&s);
-    br_scene_clear(&scene);
 }
 
 /* ---- friction ---- */
@@ -309,7 +305,7 @@ static struct br_scene stuck_scene(const char *push, double bound)
 /* A tip force holds against Tresca's bound as long as it can, and nothing moves. */
 TEST(test_stick)
 {
-    struct br_scene scene = stuck_scene("5*t", 2);
+    OWNED(br_scene) scene = stuck_scene("5*t", 2);
     struct solved s = solve(&scene, 1e-10);
     size_t count;
     const struct br_exact_event *event = br_exact_events(s.exact, &count);
@@ -322,13 +318,12 @@ TEST(test_stick)
     assert_near(s.state->friction_force, 2, 0);
     assert_true(s.state->tip[BR_BENDING].displacement > 1e-4);
     release(&s);
-    br_scene_clear(&scene);
 }
 
 /* Nothing ever moves: the displacement is round-off, and that is good enough. */
 TEST(test_rest)
 {
-    struct br_scene scene = stuck_scene("sin(3*t)", 1.01);
+    OWNED(br_scene) scene = stuck_scene("sin(3*t)", 1.01);
     struct solved s = solve(&scene, 1e-10);
     size_t count;
     br_exact_events(s.exact, &count);
@@ -337,7 +332,6 @@ TEST(test_rest)
     assert_near(s.state->friction_force, sin(5.7), 1e-9);
     assert_near(br_exact_report(s.exact, BR_BENDING).largest.displacement, 0, 1e-13);
     release(&s);
-    br_scene_clear(&scene);
 }
 
 /* A beam with next to no stiffness goes on as it was thrown, but for a layer of 6 cm at a tip that
@@ -345,7 +339,7 @@ TEST(test_rest)
 TEST(test_stopped_tip)
 {
     static const double bounds[] = {1e5, 1e8, 1e10, 1e12, 1e18};
-    struct br_scene scene = {.length = 1, .duration = 1, .density = 1};
+    OWNED(br_scene) scene = {.length = 1, .duration = 1, .density = 1};
     scene.bending = (struct br_scene_field){.modelled = true, .viscosity = 1e-5};
     scene.bending.velocity = br_test_function("x^2");
     scene.bending.velocity_slope = br_test_function("2*x");
@@ -358,7 +352,6 @@ TEST(test_stopped_tip)
         assert_near(s.state->tip[BR_BENDING].displacement, 0, 1e-7);
         release(&s);
     }
-    br_scene_clear(&scene);
 }
 
 /* ---- stopping ---- */
@@ -371,16 +364,14 @@ static bool count_down(void *self)
 
 TEST(test_stop)
 {
-    struct br_scene scene = br_test_bundled("example4");
+    OWNED(br_scene) scene = br_test_bundled("example4");
     for (int asked = 0; asked < 300; asked += 100) {
         int left = asked;
         const struct br_exact_options options = {.stop = count_down, .stop_self = &left};
         struct br_exact *exact;
-        struct br_error err = {0};
         assert_int_equal(br_exact_create(&exact, &scene, &options, &err), BR_INTERRUPTED);
         assert_null(exact);
         assert_non_null(strstr(err.message, "interrupted"));
         assert_int_equal(left, -1); /* not asked again */
     }
-    br_scene_clear(&scene);
 }

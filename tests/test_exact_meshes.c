@@ -5,6 +5,7 @@
 
 #include "reference/exact/inside.h"
 #include "tests/exact_scenes.h"
+#include "tests/support.h"
 
 static struct br_scene rod(double density, double viscosity)
 {
@@ -23,8 +24,7 @@ static struct br_scene rod(double density, double viscosity)
  * certain than `solve` wants them. */
 TEST(test_front)
 {
-    struct br_error err = {0};
-    struct br_scene scene = rod(0, 0.7);
+    OWNED(br_scene) scene = rod(0, 0.7);
     struct solved s;
     scene.axial.load = br_test_load("-3*step(2*t-x)");
     MUST(br_exact_create(&s.exact, &scene, &(struct br_exact_options){.acceptable = 1e-5}, &err));
@@ -40,7 +40,6 @@ TEST(test_front)
                     r.error.displacement + 1e-13 * r.largest.displacement);
     }
     release(&s);
-    br_scene_clear(&scene);
 }
 
 /* A switching function that changes nothing cuts the beam and the time: the solution stays. */
@@ -80,7 +79,7 @@ TEST(test_mesh_of_errors)
 {
     const char *text[] = {"exp(2*x)", "exp(2*t)"};
     for (enum br_variable v = BR_X; v <= BR_T; v++) {
-        struct br_function f = br_test_function(text[v]);
+        OWNED(br_function) f = br_test_function(text[v]);
         for (size_t degree = 1; degree <= 15; degree++)
             for (double w = 0.5; w > 0.01; w /= 2) {
                 struct br_box box = {{0, 0}, {0, 0}};
@@ -91,31 +90,28 @@ TEST(test_mesh_of_errors)
                 AT_MOST(least, error * (1 + 1e-9));
                 AT_MOST(error, least * exp(2 * w) * (1 + 1e-9));
             }
-        br_function_free(&f);
     }
 }
 
 /* Of x t it is half of both sides' product, of which at least half is told. */
 TEST(test_mesh_of_means)
 {
-    struct br_function f = br_test_function("x*t");
+    OWNED(br_function) f = br_test_function("x*t");
     for (double length = 1e-3; length < 1e4; length *= 100) {
         const double mean = length / 2 * 3 / 2;
         const double found = br_function_mesh_mean(&f, (struct br_box){{0, length}, {0, 3}});
         AT_MOST(found, mean * (1 + 1e-9));
         AT_MOST(mean / 2, found);
     }
-    br_function_free(&f);
 }
 
 /* A root is never smooth at 0: its last cell holds what it holds, unresolved. */
 TEST(test_mesh_of_a_root)
 {
-    struct br_error err;
-    struct br_function f = br_test_function("sqrt(t)");
+    OWNED(br_function) f = br_test_function("sqrt(t)");
     struct br_list end[2] = {{0}};
     const struct br_list *ends = &end[BR_T];
-    struct br_store store = {0};
+    OWNED(br_store) store = {0};
     struct br_function_mesh function_mesh = {.f = &f, .box = {{0, 0}, {0, 2}}, .mean = 1};
     MUST(br_function_mesh_add(&function_mesh, function_mesh.box, end, &store, &err));
     br_list_sort(&end[BR_T]);
@@ -125,29 +121,23 @@ TEST(test_mesh_of_a_root)
     AT_MOST(function_mesh.missed, (double)ends->count * 1e-13);
     for (size_t i = 1; i < ends->count; i++)
         AT_MOST(ends->at[i], 2.1 * ends->at[i - 1]);
-    br_store_clear(&store);
-    br_function_free(&f);
 }
 
 /* A peak on a front, where nothing finds it: all of it in one box may be missed, or twice that. */
 TEST(test_mesh_of_a_front)
 {
-    struct br_error err;
-    struct br_function f = br_test_function("step(x-t)*(1+exp(-((x-0.5003)/1e-5)^2))");
+    OWNED(br_function) f = br_test_function("step(x-t)*(1+exp(-((x-0.5003)/1e-5)^2))");
     struct br_list ends[2] = {{0}};
-    struct br_store store = {0};
+    OWNED(br_store) store = {0};
     struct br_function_mesh function_mesh = {.f = &f, .box = {{0, 1}, {0, 1}}, .mean = 1};
     MUST(br_function_mesh_add(&function_mesh, function_mesh.box, ends, &store, &err));
     const double box = pow(0.5, 20);
     AT_MOST(0.9 * box, function_mesh.missed);
     AT_MOST(function_mesh.missed, 2.1 * box);
-    br_store_clear(&store);
-    br_function_free(&f);
 }
 
 static struct br_data_mesh data_mesh_of(const struct br_scene *scene, enum br_field_kind kind)
 {
-    struct br_error err;
     struct br_data_mesh o;
     MUST(br_data_mesh_init(&o, scene, kind, &err));
     return o;
@@ -168,9 +158,9 @@ TEST(test_data_mesh_of_a_blow)
     static const char *const loads[] = {"(1+x)*exp(-((t-1.2)/1e-3)^2)",
                                         "(1+x)*exp(-((t-1.2)/1e-3)^2)*(step(t-1)-step(t-2))"};
     for (size_t row = 0; row < sizeof loads / sizeof *loads; row++) {
-        struct br_scene s = rod(1, 0.7);
+        OWNED(br_scene) s = rod(1, 0.7);
         s.axial.load = br_test_load(loads[row]);
-        struct br_data_mesh o = data_mesh_of(&s, BR_AXIAL);
+        OWNED(br_data_mesh) o = data_mesh_of(&s, BR_AXIAL);
         assert_true(br_data_mesh_is_sharp(&o, 1.2, 0.01));
         assert_false(br_data_mesh_is_sharp(&o, 0.3, 0.01));
         AT_MOST(br_data_mesh_cell(&o, 1.2), 2e-3);
@@ -183,8 +173,6 @@ TEST(test_data_mesh_of_a_blow)
             if (cell->at[i + 1] > 1.19)
                 break;
         }
-        br_data_mesh_clear(&o);
-        br_scene_clear(&s);
     }
 }
 
@@ -192,17 +180,15 @@ TEST(test_data_mesh_of_a_blow)
  * the mean was once so small that an error of 1e202 times the solution was stated. */
 TEST(test_data_mesh_of_a_blow_at_the_tip)
 {
-    struct br_scene s = rod(1, 0.7);
+    OWNED(br_scene) s = rod(1, 0.7);
     s.length = 0.022135580911717349;
     s.duration = 62.72405076094217;
     s.axial.tip_force = br_test_function("12*exp(-((t-38.5286)/0.00806621)^2)");
-    struct br_data_mesh o = data_mesh_of(&s, BR_AXIAL);
+    OWNED(br_data_mesh) o = data_mesh_of(&s, BR_AXIAL);
     AT_MOST(br_data_mesh_cell(&o, 38.5286), 0.02);
     AT_MOST((double)o.end[BR_T].count, 200); /* not some 1,800 */
     AT_MOST(o.proved, 1e-10);
     AT_MOST(o.missed, 1e-10);
-    br_data_mesh_clear(&o);
-    br_scene_clear(&s);
 }
 
 /* When a front leaves, and that it moves; where initial data bend; what a jump in a force at the

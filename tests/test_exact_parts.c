@@ -6,6 +6,7 @@
 #include "reference/exact/inside.h"
 #include "solver/laws.h"
 #include "tests/exact_scenes.h"
+#include "tests/support.h"
 
 enum { S = BR_STAGES };
 
@@ -134,7 +135,7 @@ TEST(test_modes)
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
                            7.854757438237612564861};
     for (int one = 0; one < 2; one++) {
-        struct br_store store = {0};
+        OWNED(br_store) store = {0};
         struct br_modes rod = {.spectral = new_elements(one, &store)},
                         beam = {.spectral = rod.spectral};
         assert_int_equal(br_modes_init(&rod, 1, &store, NULL), BR_OK);
@@ -145,7 +146,6 @@ TEST(test_modes)
             assert_near(beam.size[i], 1 / (beta[i] * beta[i]), 1e-15);
             assert_near(fabs(beam.tip[i]), 2 * beam.size[i], 1e-14);
         }
-        br_store_clear(&store);
     }
 }
 
@@ -166,9 +166,8 @@ static void fill_kink(const struct br_spectral_elements *spectral, size_t kink, 
  * each element, and its square over all. */
 TEST(test_projection_of_elements)
 {
-    struct br_error err = {0};
     static const size_t elements[] = {1, 3, 10, 97};
-    struct br_store store = {0};
+    OWNED(br_store) store = {0};
     const struct br_spectral_elements spectral = new_elements(false, &store);
     double series[LENGTH];
     fill_kink(&spectral, 3, series);
@@ -191,7 +190,6 @@ TEST(test_projection_of_elements)
         assert_near(sum + rest, square, 1e-14);
         assert_true(rest > 1e-9); /* no parabola has a kink */
     }
-    br_store_clear(&store);
 }
 
 /* ---- a beam of 2.5 m in three spectral elements, and x^2 on it ---- */
@@ -207,14 +205,12 @@ static void project_square(struct br_spectral_elements *spectral, size_t fronts,
     struct br_interval front[] = {{1.1, 1.1}};
     const struct br_breaks breaks = {.at = front, .count = fronts};
     static const size_t terms[] = {TERMS, TERMS, TERMS};
-    struct br_error err;
     struct br_quadrature q;
     br_spectral_init(spectral, beam, THREE, end, terms, store);
     br_quadrature_init(&q, spectral, 0, store);
     assert_false(store->failed);
-    struct br_function f = br_test_function("x^2");
+    OWNED(br_function) f = br_test_function("x^2");
     assert_int_equal(br_quadrature_project(&q, &f, 0, &breaks, c, &err), BR_OK);
-    br_function_free(&f);
 }
 
 static double squares(size_t count, const double *c)
@@ -229,7 +225,7 @@ static double squares(size_t count, const double *c)
 TEST(test_elements)
 {
     for (size_t fronts = 0; fronts < 2; fronts++) {
-        struct br_store store = {0};
+        OWNED(br_store) store = {0};
         struct br_spectral_elements spectral;
         double c[MOST];
         project_square(&spectral, fronts, &store, c);
@@ -238,6 +234,5 @@ TEST(test_elements)
         br_spectral_integrate(&spectral, 0, c);
         assert_near(squares(MOST, c), pow(beam, 4) / 63, 1e-13);
         assert_near(br_spectral_integral(&spectral, 1, c), beam * beam / 12, 1e-13);
-        br_store_clear(&store);
     }
 }

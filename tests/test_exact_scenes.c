@@ -308,8 +308,7 @@ TEST(test_small_units)
     static const struct br_units_change u = {3e-9, 7e-12, 1.1e-20};
     const double newton = u.kilogram * u.metre / (u.second * u.second);
     for (size_t i = 1; i < SCENES; i += 2) {
-        struct br_error err = {0};
-        struct br_scene other;
+        OWNED(br_scene) other;
         const struct bundled *b = find(scenes[i]);
         const struct br_exact_state *x = b->tight.state;
         MUST(br_rescale(&b->scene, &u, &other, &err));
@@ -330,7 +329,6 @@ TEST(test_small_units)
         }
         compare_events(b->tight.exact, s.exact, u.second);
         release(&s);
-        br_scene_clear(&other);
     }
 }
 

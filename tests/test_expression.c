@@ -14,10 +14,9 @@
 
 static double value_of(const char *text, double x, double t)
 {
-    struct br_function f = br_test_function(text);
+    OWNED(br_function) f = br_test_function(text);
     double value;
     br_function_evaluate(&f, 1, &x, t, &value);
-    br_function_free(&f);
     return value;
 }
 
@@ -158,7 +157,6 @@ TEST(test_refusals)
 {
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         struct br_function f;
-        struct br_error err = {0};
         char column[32];
         snprintf(column, sizeof column, "at column %d: ", refusals[i].column);
         assert_int_equal(br_expression(refusals[i].text, &f, &err), BR_BAD_INPUT);
@@ -180,7 +178,6 @@ TEST(test_limits)
     static const char *const nest[] = {"(", "-", "x^", "sin(", "x?1:"};
     static char text[100000];
     struct br_function f;
-    struct br_error err;
     for (size_t i = 0; i < sizeof nest / sizeof *nest; i++) {
         repeat(text, nest[i], 20000);
         assert_int_equal(br_expression(text, &f, &err), BR_BAD_INPUT);
@@ -232,7 +229,7 @@ TEST(test_bits)
     enum { MOST = 700 };
     static const char text[] = "sin(3*x+t)*exp(-x*t)+cosh(x)*tan(t)^1.5-log(1+x*x)/(2+asinh(t*x))"
                                "+(x<0.3?atan(x):tanh(x))*max(x,t)";
-    struct br_function f = br_test_function(text);
+    OWNED(br_function) f = br_test_function(text);
     double x[MOST], value[MOST], one;
     for (int i = 0; i < MOST; i++)
         x[i] = (double)i / 97;
@@ -246,7 +243,6 @@ TEST(test_bits)
             fesetround(FE_TONEAREST);
             assert_memory_equal(&one, &value[i], sizeof one);
         }
-    br_function_free(&f);
 }
 
 /* ---- sums of products ---- */
@@ -299,8 +295,7 @@ TEST(test_products)
 {
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
         struct br_function f = br_test_function(loads[i].text);
-        struct br_load load;
-        struct br_error err;
+        OWNED(br_load) load;
         size_t products = 0, mixed = 0;
         MUST(br_products(&f, &load, &err));
         for (size_t j = 0; j < BR_LOAD_TERMS; j++) {
@@ -314,23 +309,21 @@ TEST(test_products)
         for (double x = 0.1; x < 2; x += 0.3)
             for (double t = 0.1; t < 2; t += 0.3)
                 check_value(&load, loads[i].text, x, t);
-        br_load_clear(&load);
     }
 }
 
-static enum br_status use_expression(const void *text, struct br_error *err)
+static enum br_status use_expression(const void *text, struct br_error *why)
 {
     struct br_function f, copy = {0};
-    struct br_load load = {0};
-    enum br_status status = br_expression(text, &f, err);
+    OWNED(br_load) load = {0};
+    enum br_status status = br_expression(text, &f, why);
     if (!status)
-        status = br_function_clone(&f, &copy, err);
+        status = br_function_clone(&f, &copy, why);
     if (status)
         br_function_free(&f);
     else
-        status = br_products(&f, &load, err); /* which takes it over */
+        status = br_products(&f, &load, why); /* which takes it over */
     br_function_free(&copy);
-    br_load_clear(&load);
     return status;
 }
 
@@ -343,18 +336,16 @@ static double tip_after(struct br_function f, bool products, enum br_field_kind 
 {
     struct br_scene s = br_test_bare();
     struct br_load *load = &s.field[kind].load;
-    struct br_error err;
     if (products)
         MUST(br_products(&f, load, &err));
     else
         load->term[0] = (struct br_product){f, {.constant = 1}};
     const struct br_method method = br_method_default();
-    struct br_march *march;
+    OWNED(br_march) * march;
     MUST(br_march_create(&march, &s, 20, 50, &method, &err));
     for (int i = 0; i < 50; i++)
         MUST(br_march_step(march, &err));
     const double out = br_march_tip_displacement(march, kind);
-    br_march_free(march);
     br_load_clear(load);
     return out;
 }

@@ -157,7 +157,6 @@ static struct br_scene any_scene(struct br_test_random *r)
 /* bdf3 refuses vibration of little damping. */
 static bool goes(const struct br_scene *s, const struct br_method *m, size_t n, size_t steps)
 {
-    struct br_error err;
     return !m->scheme->needs_damping ||
            (!br_method_check(m, s, &err) &&
             !br_damping_check(m, s, n, s->duration / (double)steps, &err));
@@ -237,11 +236,11 @@ static size_t any_mesh(struct br_test_random *r, const struct br_method *m)
 static void check_scene(uint64_t seed, size_t *compared)
 {
     struct br_test_random r = {1000 + seed};
-    struct br_scene s = any_scene(&r);
+    OWNED(br_scene) s = any_scene(&r);
     const struct br_method method = any_method(&r);
     const size_t n = any_mesh(&r, &method), steps = 1 + br_test_index(&r, 30);
     if (goes(&s, &method, n, steps)) {
-        struct br_march *march = br_test_march(&s, n, steps, &method);
+        OWNED(br_march) *march = br_test_march(&s, n, steps, &method);
         struct dense_march *dense = dense_follow(march, &s, &method);
         const double predicted = br_march_round_off(march);
         /* A lagged contact may magnify differences on its way to an impact. */
@@ -256,9 +255,7 @@ static void check_scene(uint64_t seed, size_t *compared)
             ++*compared;
         }
         dense_free(dense);
-        br_march_free(march);
     }
-    br_scene_clear(&s);
 }
 
 TEST(test_random_scenes)
@@ -293,9 +290,9 @@ TEST(test_statics)
     const double u = 5.0 * 9 / 22, w = 5.0 * 81 / (8 * 13);
     for (size_t scheme = 0; scheme <= fixed_schemes(); scheme++) /* and the adaptive one */
         for (size_t solver = 0; solver < solver_count(); solver++) {
-            struct br_scene s = loaded();
+            OWNED(br_scene) s = loaded();
             const struct br_method method = method_of(solver, scheme, 1, 0);
-            struct br_march *march = br_test_march(&s, 20, 25, &method);
+            OWNED(br_march) *march = br_test_march(&s, 20, 25, &method);
             feclearexcept(FE_ALL_EXCEPT);
             for (size_t step = 1; step <= 25; step++) {
                 br_test_advance(march, step);
@@ -303,8 +300,6 @@ TEST(test_statics)
                 CLOSE(br_march_tip_displacement(march, BR_BENDING), w, 1e-10 * w);
             }
             assert_int_equal(bad_flags(), 0);
-            br_march_free(march);
-            br_scene_clear(&s);
         }
 }
 
@@ -313,20 +308,18 @@ TEST(test_jumps)
 {
     const double u = 5.0 * 9 / 22, w = 5.0 * 81 / (8 * 13);
     for (size_t solver = 0; solver < solver_count(); solver++) {
-        struct br_scene s = loaded();
+        OWNED(br_scene) s = loaded();
         const struct br_method method = method_of(solver, fixed_schemes(), 1, 0);
         s.axial.viscosity = solver % 2 ? 0 : 1e-20;
         s.axial.load.term[0].time = br_test_function("t < 3.3 ? 1 : 0-2");
         s.bending.load.term[0].time = br_test_function("t < 4.4 ? 1 : 3");
-        struct br_march *march = br_test_march(&s, 20, 14, &method);
+        OWNED(br_march) *march = br_test_march(&s, 20, 14, &method);
         for (size_t step = 1; step <= 14; step++) {
             br_test_advance(march, step);
             const double t = 0.5 * (double)step;
             CLOSE(br_march_tip_displacement(march, BR_AXIAL), t < 3.3 ? u : -2 * u, 1e-11 * u);
             CLOSE(br_march_tip_displacement(march, BR_BENDING), t < 4.4 ? w : 3 * w, 1e-9 * w);
         }
-        br_march_free(march);
-        br_scene_clear(&s);
     }
 }
 
@@ -339,7 +332,7 @@ struct outcome {
 static struct outcome outcome_of(const struct br_scene *s, const struct br_method *method)
 {
     enum { N = 40, STEPS = 30 };
-    struct br_march *march = br_test_march(s, N, STEPS, method);
+    OWNED(br_march) *march = br_test_march(s, N, STEPS, method);
     double w[2 * (N + 1)];
     struct outcome o;
     feclearexcept(FE_ALL_EXCEPT);
@@ -350,7 +343,6 @@ static struct outcome outcome_of(const struct br_scene *s, const struct br_metho
                           br_march_tip_displacement(march, BR_BENDING),
                           br_march_tip(march)->velocity[0], br_march_tip(march)->velocity[1]},
                          w[N]};
-    br_march_free(march);
     return o;
 }
 
@@ -415,14 +407,13 @@ TEST(test_bound_is_the_reaction)
             method_of(i / 3 % solver_count(), i / 3 / solver_count(), 1, 0);
         const double bounds[] = {nextafter(3, 4), 3, nextafter(3, 2)};
         struct br_scene s = held(3, bounds[i % 3]);
-        struct br_march *march = br_test_march(&s, 21, 40, &method);
+        OWNED(br_march) *march = br_test_march(&s, 21, 40, &method);
         for (size_t step = 1; step <= 40; step++) {
             br_test_advance(march, step);
             CLOSE(br_march_tip_displacement(march, BR_BENDING), 0, 1e-12);
             AT_MOST(fabs(br_march_tip(march)->friction_force), bounds[i % 3]);
             CLOSE(br_march_tip(march)->friction_force, 3, 1e-12);
         }
-        br_march_free(march);
     }
 }
 
@@ -435,7 +426,7 @@ TEST(test_reversal_in_a_step)
         s.bending.tip_force = br_test_function("t < 0.5 ? 5 : 0-5");
         s.bending.stiffness = 2;
         const struct br_method method = method_of(solver, 0, 1, 0);
-        struct br_march *march = br_test_march(&s, 8, 11, &method);
+        OWNED(br_march) *march = br_test_march(&s, 8, 11, &method);
         double w = 0;
         for (size_t step = 1; step <= 11; step++) {
             const double k = 1.0 / 11, f = step < 6 ? 4 : -4;
@@ -444,7 +435,6 @@ TEST(test_reversal_in_a_step)
             assert_true(br_march_tip(march)->friction_force == (step < 6 ? 1 : -1));
             CLOSE(br_march_tip_displacement(march, BR_BENDING), w, 1e-12);
         }
-        br_march_free(march);
         br_function_free(&s.bending.tip_force);
     }
 }
@@ -453,33 +443,30 @@ TEST(test_reversal_in_a_step)
 TEST(test_grazing)
 {
     for (size_t i = 0; i < solver_count() * fixed_schemes(); i++) {
-        struct br_scene s = loaded();
+        OWNED(br_scene) s = loaded();
         s.contact = (struct br_contact){.modelled = true, .stiffness = 1e15};
         const struct br_method method = method_of(i % solver_count(), i / solver_count(), 1, 0);
         for (int ulps = -1; ulps <= 1; ulps++) {
             s.contact.gap = 5.0 * 9 / 22 * (1 + ulps * DBL_EPSILON);
-            struct br_march *march = br_test_march(&s, 17, 12, &method);
+            OWNED(br_march) *march = br_test_march(&s, 17, 12, &method);
             for (size_t step = 1; step <= 12; step++) {
                 br_test_advance(march, step);
                 CLOSE(br_march_tip_displacement(march, BR_AXIAL), s.contact.gap, 1e-12);
                 AT_MOST(br_march_tip(march)->contact_force, 1e-11);
             }
-            br_march_free(march);
         }
-        br_scene_clear(&s);
     }
 }
 
 /* ---- beyond double precision ---- */
 
 static enum br_status end_of(const struct br_scene *s, const struct br_method *method,
-                             struct br_error *err)
+                             struct br_error *why)
 {
-    struct br_march *march;
-    enum br_status status = br_march_create(&march, s, 21, 6, method, err);
+    OWNED(br_march) * march;
+    enum br_status status = br_march_create(&march, s, 21, 6, method, why);
     for (int step = 0; step < 6 && !status; step++)
-        status = br_march_step(march, err);
-    br_march_free(march);
+        status = br_march_step(march, why);
     return status;
 }
 
@@ -487,8 +474,7 @@ TEST(test_beyond_double)
 {
     for (size_t i = 0; i < solver_count() * (fixed_schemes() + 1); i++) {
         const struct br_method method = method_of(i % solver_count(), i / solver_count(), 1, 0);
-        struct br_error err = {0};
-        struct br_scene s = loaded();
+        OWNED(br_scene) s = loaded();
         /* An estimate of an error may say so first. */
         const char *const field = method.scheme->adaptive ? "" : "motion is lost to underflow";
         s.axial.load.term[0].space.constant = 1e-310;
@@ -500,6 +486,5 @@ TEST(test_beyond_double)
         MUST(end_of(&s, &method, &err));
         s.bending.load.term[0].space.constant = 1.7e308;
         REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, "bending load at t = ");
-        br_scene_clear(&s);
     }
 }

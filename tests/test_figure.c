@@ -57,7 +57,6 @@ static struct br_figure made(size_t panels)
 /* What is stored: data, and the script unless golden/ has one of the kind. */
 static void print_data(FILE *out, struct br_figure f)
 {
-    struct br_error err = {0};
     MUST(br_figure_check(&f, &err));
     fprintf(out, "==== %s.dat\n", f.stem);
     br_figure_write_data(out, &f);
@@ -79,7 +78,7 @@ static void print_made(FILE *out)
 /* At most six hues in a figure; the same title looks the same in the next panel. */
 TEST(test_hues)
 {
-    struct br_figure f = {0};
+    OWNED(br_figure) f = {0};
     struct br_panel *p = br_panel_add(&f, false, "x", "y");
     for (size_t i = 0; i < 8; i++) {
         const struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "%zu", i);
@@ -89,7 +88,6 @@ TEST(test_hues)
     }
     br_panel_add(&f, false, "x", "y");
     assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->style, 4);
-    br_figure_clear(&f);
 }
 
 /* Powers of ten are counted from a power of ten on: without a start gnuplot 5.4 puts the ticks of
@@ -176,7 +174,6 @@ static bool draw(const struct br_figure *f, char svg[SVG])
     char folder[] = "/tmp/beamrate-figure-XXXXXX", path[128];
     bool missing;
     struct br_gnuplot gnuplot;
-    struct br_error err = {0};
     assert_non_null(mkdtemp(folder));
     write_file(folder, names[0], f, br_figure_write_data);
     write_file(folder, names[1], f, br_figure_write_script);
@@ -202,9 +199,8 @@ TEST(test_drawn)
 {
     bool drawn = true;
     for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++) {
-        struct br_figure f = made(panels);
+        OWNED(br_figure) f = made(panels);
         drawn = draw(&f, NULL) && drawn;
-        br_figure_clear(&f);
     }
     if (!drawn)
         SKIP("gnuplot is not installed");
@@ -214,13 +210,12 @@ TEST(test_drawn)
 TEST(test_gap)
 {
     static char svg[SVG];
-    struct br_figure f = {.stem = "made"};
+    OWNED(br_figure) f = {.stem = "made"};
     br_panel_add(&f, false, "x", "y");
     struct br_series *s = br_series_add(&f, BR_PEN_LINE, "one");
     for (int i = 0; i < 5; i++)
         br_point_add(s, i, i == 2 ? (double)NAN : i, NULL);
     const bool drawn = draw(&f, svg);
-    br_figure_clear(&f);
     if (!drawn)
         SKIP("gnuplot is not installed");
     const char *line = strstr(svg, "data index 0");
@@ -237,10 +232,9 @@ TEST(test_gap)
 
 TEST(test_no_memory)
 {
-    struct br_error err = {0};
     bool failed = true;
     for (long i = 0; failed; i++) {
-        struct br_figure f = {0};
+        OWNED(br_figure) f = {0};
         br_allocation_fails_at(i);
         struct br_panel *p = br_panel_add(&f, false, "x", "y");
         br_point_add(br_series_add(&f, BR_PEN_LINE, "one"), 1, 1, NULL);
@@ -248,7 +242,6 @@ TEST(test_no_memory)
         br_allocation_fails_at(-1);
         failed = br_figure_check(&f, &err) == BR_NO_MEMORY;
         assert_int_equal(failed, i < 4); /* series twice, points, ticks */
-        br_figure_clear(&f);
     }
 }
 
@@ -257,8 +250,7 @@ TEST(test_no_memory)
 TEST(test_names)
 {
     static const char *const bad[] = {"", "a/b", "../a", "<a", "|a", "-a", "a\nb", " a"};
-    struct br_made_report m;
-    struct br_error err = {0};
+    OWNED(br_made_report) m;
     struct br_figure f;
     br_made_report(&m, false);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -267,30 +259,27 @@ TEST(test_names)
         REFUSED(br_figure_check(&f, &err), BR_BAD_INPUT, "expected the beginning of a file name");
         br_figure_clear(&f);
     }
-    br_made_report_clear(&m);
 }
 
 /* Of more curves than hues, the first, the last and some evenly between them have one. */
 TEST(test_many_curves)
 {
     static const size_t steps[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
-    struct br_made_report m;
+    OWNED(br_made_report) m;
     br_made_report(&m, false);
     m.study.n_count = 1;
     m.study.k_count = 11;
     m.study.steps = steps;
-    struct br_figure f = br_convergence_draw(&br_convergence_pictures[1], &m.report);
+    OWNED(br_figure) f = br_convergence_draw(&br_convergence_pictures[1], &m.report);
     assert_int_equal(f.panel[0].count, 11);
     for (size_t i = 0; i < 11; i++)
         assert_int_equal(f.panel[0].series[i]->pen, i % 2 ? BR_PEN_OTHERS : BR_PEN_CURVE);
-    br_figure_clear(&f);
-    br_made_report_clear(&m);
 }
 
 /* On a beam of 2 m in 0.5 s: a mesh of n elements stands at 2 m/n, and N steps at 0.5 s/N. */
 TEST(test_sizes_on_axes)
 {
-    struct br_made_report m;
+    OWNED(br_made_report) m;
     size_t panels[BR_AXES] = {0};
     br_made_report(&m, false);
     m.scene.length = 2;
@@ -302,7 +291,7 @@ TEST(test_sizes_on_axes)
             o->point[i] = (struct br_point){.z = (axis ? 0.5 : 2) / (10 << i), .error = 1};
     }
     for (size_t i = 0; i < 3; i++) {
-        struct br_figure f = br_convergence_draw(&br_convergence_pictures[i], &m.report);
+        OWNED(br_figure) f = br_convergence_draw(&br_convergence_pictures[i], &m.report);
         for (const struct br_panel *p = f.panel; p < f.panel + f.panels; p++) {
             const bool time = strncmp(p->x_label, "time step", 9) == 0;
             const double whole = time ? 0.5 : 2;
@@ -314,16 +303,14 @@ TEST(test_sizes_on_axes)
             for (size_t j = 0; j < s->count; j++)
                 CLOSE(whole / s->point[j].x, round(whole / s->point[j].x), 1e-9);
         }
-        br_figure_clear(&f);
     }
     assert_true(panels[0] > 0 && panels[1] > 0);
-    br_made_report_clear(&m);
 }
 
 /* Residuals of a fit to errors against a fine run, whose own mesh and steps the model knows. */
 TEST(test_residuals)
 {
-    struct br_made_report m;
+    OWNED(br_made_report) m;
     br_made_report(&m, false);
     struct br_joint_fit *fit = &m.report.fits[BR_PART_TOTAL].joint;
     m.scene.length = 2;
@@ -340,7 +327,7 @@ TEST(test_residuals)
                      of_k = 0.5 / (double)cell->at.steps - 0.5 / 1600;
         cell->error[BR_PART_TOTAL] = 1.25 * hypot(of_h, of_k);
     }
-    struct br_figure f = br_convergence_draw(&br_convergence_pictures[2], &m.report);
+    OWNED(br_figure) f = br_convergence_draw(&br_convergence_pictures[2], &m.report);
     size_t drawn = 0;
     assert_int_equal(f.panels, 2);
     for (size_t i = 0; i < f.panel[1].count; i++)
@@ -350,15 +337,13 @@ TEST(test_residuals)
                 drawn++;
             }
     assert_int_equal(drawn, BR_MADE_CELLS - 1); /* one failed */
-    br_figure_clear(&f);
-    br_made_report_clear(&m);
 }
 
 /* All pictures of a study in the norm of energy, whose joint fit describes it: slopes, residuals,
  * orders, printed errors. */
 static void print_study(FILE *out)
 {
-    struct br_made_report m;
+    OWNED(br_made_report) m;
     br_made_report(&m, false);
     m.study.norm = &br_norm_energy;
     for (int part = 0; part < BR_PARTS; part++)
@@ -387,7 +372,6 @@ static void print_study(FILE *out)
             assert_true(f.panel[j].log_y == !strstr(f.panel[j].y_label, "joint fit"));
         (i == 0 ? print : print_data)(out, f);
     }
-    br_made_report_clear(&m);
 }
 
 /* ---- a check ---- */
@@ -440,7 +424,6 @@ TEST(test_checks)
 
 static void print_floors(FILE *out)
 {
-    struct br_error err = {0};
     size_t n[] = {10, 100};
     double k[] = {0.1, 0.01, 0.001};
     struct br_floor floor[12];
@@ -466,7 +449,6 @@ static void print_floors(FILE *out)
 
 static void print_drifts(FILE *out)
 {
-    struct br_error err = {0};
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
     static char name[][4] = {"one", "two"};
@@ -521,10 +503,9 @@ static void print_history(FILE *out)
     struct br_history_record r;
     struct br_history_row row[LOOKS];
     double field[LOOKS * 18];
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     make_record(&r, row, field);
     print(out, br_history_draw(&scene, &r));
-    br_scene_clear(&scene);
 }
 
 static void print_all(FILE *out)

@@ -23,7 +23,6 @@ static void hear(void *self, double share)
 static int run_paper(void **state)
 {
     (void)state;
-    struct br_error err = {0};
     struct br_paper_request request = br_paper_request_default();
     if (br_test_quick())
         request.n = request.per_second = 100, request.per_decade = 1;
@@ -208,7 +207,6 @@ TEST(test_nan)
 TEST(test_threads)
 {
     struct br_paper runs[2];
-    struct br_error err = {0};
     struct br_paper_request request = {.n = 20, .per_second = 100, .per_decade = 1};
     for (int i = 0; i < 2; i++) {
         request.threads = 1 + 2 * i;

@@ -66,7 +66,6 @@ static void fill(const struct truth *t, double noise, uint64_t seed)
 
 static void fit(enum br_part part)
 {
-    struct br_error err = {0};
     br_fits_clear(&fits);
     MUST(br_fit(&g.study, part, &fits, &err));
 }
@@ -328,7 +327,6 @@ TEST(test_units)
                 scaled[j] = (struct br_point){.x = {base[j].x[0] * m, base[j].x[1] * s},
                                               .ref = {base[j].ref[0] * m, base[j].ref[1] * s},
                                               .error = base[j].error * e};
-            struct br_error err = {0};
             struct br_joint_fit fit;
             MUST(br_joint_fit_solve(scaled, rows * COLUMNS, false, NULL, &fit, &err));
             if (u == 0)
@@ -402,7 +400,6 @@ static void fit_stranger(const struct truth *t, uint64_t seed, struct br_joint_f
 {
     struct br_point o[SIZES * SIZES] = {{.error = 0}};
     struct br_test_random random = {seed};
-    struct br_error err = {0};
     for (size_t i = 0; i < SIZES * SIZES; i++) {
         const double x = ldexp(1, -(int)(i / SIZES)), y = ldexp(1, -(int)(i % SIZES));
         const double a = t->c_h * pow(x, t->p), b = t->c_k * pow(y, t->q);
@@ -449,7 +446,6 @@ TEST(test_next_term_of_each_axis)
     for (int axis = 0; axis < BR_AXES; axis++) {
         struct br_point o[SIZES * SIZES] = {{.error = 0}};
         struct br_joint_fit found;
-        struct br_error err = {0};
         for (size_t i = 0; i < SIZES * SIZES; i++) {
             o[i].x[0] = ldexp(1, -(int)(i / SIZES));
             o[i].x[1] = ldexp(1, -(int)(i % SIZES));
@@ -475,7 +471,6 @@ TEST(test_order_that_changes)
         const double at = turn < 2 ? 0.25 : 0.2;
         struct br_point o[LINE * LINE] = {{.error = 0}};
         struct br_joint_fit found;
-        struct br_error err = {0};
         for (size_t i = 0; i < sizes * sizes; i++) {
             const double x = ldexp(1, -(int)(i / sizes)), y = ldexp(1, -(int)(i % sizes));
             o[i].x[axis] = x;
@@ -516,7 +511,6 @@ TEST(test_last_bits)
     struct br_joint_fit first = {0}, found;
     for (size_t turn = 0; turn < 6; turn++) {
         struct br_point o[CELLS_OF];
-        struct br_error err = {0};
         size_t count = 0;
         for (size_t i = 0; i < CELLS_OF; i++)
             if (error[i] > 0)
@@ -545,7 +539,6 @@ TEST(test_interval_of_what_is_not_ruled_out)
     for (int axis = 0; axis < BR_AXES; axis++) {
         struct br_point o[LINE * LINE] = {{.error = 0}};
         struct br_joint_fit found;
-        struct br_error err = {0};
         double l[LINE], x[LINE], mean_l = 0, mean_x = 0, ll = 0, lx = 0, xx = 0;
         for (int i = 0; i < LINE * LINE; i++) {
             o[i].x[axis] = ldexp(1, -(i / LINE));

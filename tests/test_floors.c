@@ -29,8 +29,7 @@ TEST(test_floors)
     static const size_t steps[] = {100, 1000000};
     const struct br_extremes_job job = {
         .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 2, .step_count = 2};
-    struct br_error err = {0};
-    struct br_floors f;
+    OWNED(br_floors) f;
     MUST(br_floors_run(&f, false, &job, &err));
     MUST(br_floors_verdict(&f, &err));
     for (size_t i = 0; i < f.floors; i++) {
@@ -49,7 +48,6 @@ TEST(test_floors)
     }
     br_fail(&f.floor[0].refused, BR_SINGULAR, "lost"); /* only assembled matrices may be */
     REFUSED(br_floors_verdict(&f, &err), BR_VERDICT, "lost");
-    br_floors_clear(&f);
 }
 
 /* Verdicts by hand, of the row among others that are right. The limit is what is predicted, and of
@@ -93,7 +91,6 @@ TEST(test_verdicts_by_hand)
     };
     for (size_t i = 0; i < 3 * sizeof rows / sizeof *rows; i++) {
         const size_t row = i / 3;
-        struct br_error err = {0};
         struct br_named_method method[2];
         struct br_floor floor[3];
         MUST(br_named_method_read("plain", &method[0], &err));
@@ -136,15 +133,13 @@ TEST(test_meshes)
                                             .n = listed ? &million : NULL,
                                             .n_count = listed ? 1 : 0,
                                             .observer = &stops};
-        struct br_error err = {0};
-        struct br_floors f;
+        OWNED(br_floors) f;
         REFUSED(br_floors_run(&f, false, &job, &err), BR_INTERRUPTED, "interrupted");
         for (size_t i = 0; i < f.floors; i++) {
             const bool assembled = f.floor[i].by == &f.method.list[named(&f, "umfpack")];
             const bool left = !listed && assembled && f.floor[i].n > 100000;
             assert_true(f.floor[i].steps == (left ? 0 : BR_FLOOR_STEPS));
         }
-        br_floors_clear(&f);
     }
 }
 
@@ -154,19 +149,16 @@ TEST(test_any_scene)
 {
     static const char *const names[] = {"vibration", "mms_pressed"};
     static const size_t n[] = {100, 1600}, steps[] = {5, 10};
-    struct br_error err = {0};
     for (size_t i = 0; i < 2; i++) {
-        struct br_scene scene = br_test_bundled(names[i]);
+        OWNED(br_scene) scene = br_test_bundled(names[i]);
         const struct br_scene *const one[] = {&scene};
         const struct br_extremes_job job = {
             .scene = one, .scenes = 1, .n = n, .steps = steps, .n_count = 2, .step_count = 2};
-        struct br_floors f;
+        OWNED(br_floors) f;
         MUST(br_floors_run(&f, false, &job, &err));
         MUST(br_floors_verdict(&f, &err));
         for (size_t j = 0; j < f.floors; j++)
             AT_MOST(br_floor_deviation(&f.floor[j]), f.floor[j].predicted);
-        br_floors_clear(&f);
-        br_scene_clear(&scene);
     }
 }
 
@@ -177,7 +169,6 @@ TEST(test_refused)
     static const size_t steps[] = {1000000};
     const struct br_extremes_job job = {
         .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 1, .step_count = 1};
-    struct br_error err = {0};
     struct br_floors f;
     if (br_test_quick())
         SKIP("too long for this run");
@@ -197,8 +188,7 @@ TEST(test_drift)
     static const size_t steps[] = {1, 10, 3000, 10000};
     const struct br_extremes_job job = {
         .scene = both, .scenes = 2, .steps = steps, .step_count = 4};
-    struct br_error err = {0};
-    struct br_floors d;
+    OWNED(br_floors) d;
     MUST(br_floors_run(&d, true, &job, &err));
     MUST(br_floors_verdict(&d, &err));
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
@@ -216,7 +206,6 @@ TEST(test_drift)
     }
     d.floor[0].deviation[BR_AXIAL] = NAN;
     REFUSED(br_floors_verdict(&d, &err), BR_VERDICT, "1 steps of 1 s: the round-off is nan");
-    br_floors_clear(&d);
 }
 
 int main(void)

@@ -32,19 +32,19 @@ enum br_status __wrap_br_march_create(struct br_march **march, const struct br_s
                                       struct br_error *err);
 enum br_status __wrap_br_march_create(struct br_march **march, const struct br_scene *scene,
                                       size_t n, size_t steps, const struct br_method *method,
-                                      struct br_error *err)
+                                      struct br_error *why)
 {
     elements = n;
     now += set_up;
-    return __real_br_march_create(march, scene, n, steps, method, err);
+    return __real_br_march_create(march, scene, n, steps, method, why);
 }
 
 enum br_status __real_br_march_step(struct br_march *march, struct br_error *err);
 enum br_status __wrap_br_march_step(struct br_march *march, struct br_error *err);
-enum br_status __wrap_br_march_step(struct br_march *march, struct br_error *err)
+enum br_status __wrap_br_march_step(struct br_march *march, struct br_error *why)
 {
     const struct br_counts before = br_march_counts(march);
-    const enum br_status status = __real_br_march_step(march, err);
+    const enum br_status status = __real_br_march_step(march, why);
     const struct br_counts after = br_march_counts(march);
     now += work(elements, (double)(after.stages - before.stages) +
                               6 * (double)(after.set_ups - before.set_ups));
@@ -73,7 +73,6 @@ static struct br_trade *make(const struct br_scene *scene, struct br_trade_goal 
                              const struct br_trade_grid *grid, size_t methods,
                              enum br_status *status, struct br_error *failure)
 {
-    struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
     t->request = br_trial_request_default(scene);
@@ -100,8 +99,7 @@ static double exhaustive(const struct br_trade *t, double most)
     static const size_t n[] = {4, 8, 12, 16, 32, 64, 128, 192, 256, 512, 1024};
     static const size_t k[] = {10, 12, 15, 20, 30, 40, 60, 80, 120, 240};
     enum { N = sizeof n / sizeof *n, K = sizeof k / sizeof *k };
-    struct br_trial *trial = calloc(ALL * N * K, sizeof *trial);
-    struct br_error err = {0};
+    FREED struct br_trial *trial = calloc(ALL * N * K, sizeof *trial);
     size_t count = 0;
     assert_non_null(trial);
     for (size_t c = 0; c < t->methods.count; c++)
@@ -120,7 +118,6 @@ static double exhaustive(const struct br_trade *t, double most)
     for (size_t i = 0; i < count; i++)
         if (br_trial_bound(&trial[i]) <= t->goal.error)
             least = fmin(least, br_trial_seconds(&trial[i]));
-    free(trial);
     return least;
 }
 
@@ -134,9 +131,8 @@ TEST(test_promise)
         for (size_t e = 0; e < sizeof errors / sizeof *errors; e++) {
             if ((s + e) % 2 == 0 && !br_test_long())
                 continue;
-            struct br_error err = {0};
             enum br_status status;
-            struct br_scene scene = br_test_bundled(scenes[s]);
+            OWNED(br_scene) scene = br_test_bundled(scenes[s]);
             struct br_trade *t = make(&scene, (struct br_trade_goal){.error = errors[e]},
                                       &(struct br_trade_grid){0}, ALL, &status, &err);
             MUST(status);
@@ -150,7 +146,6 @@ TEST(test_promise)
                 fail_msg("%s to %g: %s, n = %zu costs %g, the best %g", scenes[s], errors[e],
                          best->named->name, best->at.n, cost, least);
             drop(t);
-            br_scene_clear(&scene);
         }
 }
 
@@ -190,9 +185,8 @@ TEST(test_goals)
         {"example3", {.error = 1e-16}, 0, "an error of"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         enum br_status status;
-        struct br_scene scene = br_test_bundled(rows[i].scene);
+        OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
         struct br_trade *t = make(&scene, rows[i].goal, &(struct br_trade_grid){0},
                                   rows[i].refusal ? 1 : ALL, &status, &err);
         if (rows[i].refusal) {
@@ -207,7 +201,6 @@ TEST(test_goals)
                         br_trial_seconds(best) <= rows[i].goal.seconds);
         }
         drop(t);
-        br_scene_clear(&scene);
     }
 }
 
@@ -216,9 +209,8 @@ TEST(test_lists_are_kept)
 {
     static const size_t n[] = {40, 20}, steps[] = {5, 7};
     static const double tolerance[] = {2e-3, 3e-7};
-    struct br_error err = {0};
     enum br_status status;
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     for (int kind = 0; kind < 4; kind++) {
         const bool of_tolerances = kind == 3;
         const struct br_trade_grid grid = {.n = n,
@@ -242,7 +234,6 @@ TEST(test_lists_are_kept)
         }
         drop(t);
     }
-    br_scene_clear(&scene);
 }
 
 /* Of trials whose seconds are equal but for the clock's scatter the one with the smallest error is

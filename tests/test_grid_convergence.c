@@ -15,8 +15,6 @@
 
 enum { MOST = 12 };
 
-static struct br_error err;
-
 /* h of two-dimensional grids of so many cells, equation (2) of Celik et al., from coarse to fine.
  */
 static void sizes(const double *cells, size_t count, double *h)
@@ -399,7 +397,7 @@ TEST(test_scatter)
             size_t scatter = 0, diverges = 0, stated = 0, right = 0;
             for (int trial = 0; trial < TRIALS; trial++) {
                 struct br_point line[6];
-                struct br_limits limits;
+                OWNED(br_limits) limits;
                 for (size_t i = 0; i < count; i++) {
                     double sum = -6; /* of deviation 1 */
                     for (int j = 0; j < 12; j++)
@@ -419,7 +417,6 @@ TEST(test_scatter)
                     if (fabs(line[i + 2].value - line[i + 1].value) <=
                         hypot(line[i + 1].half, line[i + 2].half))
                         IS_NAN(limits.triple[i].fine.index);
-                br_limits_clear(&limits);
             }
             assert_true(s < 2 ? (double)scatter > 0.96 * TRIALS : (double)scatter < 0.02 * TRIALS);
             if (!((double)diverges < 0.02 * TRIALS && (double)stated > 0.94 * TRIALS))
@@ -439,21 +436,19 @@ TEST(test_scatter_of_the_coarsest)
                                            {.z = 4, .value = 7, .half = 0.1},
                                            {.z = 2, .value = 3, .half = 0.1},
                                            {.z = 1, .value = 1, .half = 0.1}};
-    struct br_limits limits;
+    OWNED(br_limits) limits;
     MUST(br_limits_find(line, 4, &limits, &err));
     assert_int_equal(limits.triples, 2);
     assert_int_equal(limits.triple[0].sequence, BR_SEQUENCE_UNKNOWN);
     assert_int_equal(limits.triple[1].sequence, BR_MONOTONE_CONVERGENCE);
     CLOSE(limits.triple[1].order, 1, 1e-13);
     CLOSE(limits.triple[1].fine.limit, -1, 1e-12);
-    br_limits_clear(&limits);
 }
 
 static enum br_status attempt(const void *data, struct br_error *why)
 {
-    struct br_limits limits;
+    OWNED(br_limits) limits;
     const enum br_status status = br_limits_find(data, 5, &limits, why);
-    br_limits_clear(&limits);
     return status;
 }
 

@@ -83,7 +83,6 @@ TEST(test_models)
         assert_true(m->bound(&f, 0) == 0);
     }
     struct br_scene s = br_test_bare();
-    struct br_error err;
     s.friction.law = 1000000;
     REFUSED(br_scene_check(&s, &err), BR_BAD_INPUT, "has no bound");
 }
@@ -340,12 +339,11 @@ TEST(test_contraction)
  * an error of lambda changes the velocity by z_tip times that, and each step's may stay. */
 static void compare_marches(const char *name, const struct br_friction_rule *rule)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled(name);
+    OWNED(br_scene) scene = br_test_bundled(name);
     struct br_method method = br_method_default();
-    struct br_march *march = br_test_march(&scene, 50, 200, &method);
+    OWNED(br_march) *march = br_test_march(&scene, 50, 200, &method);
     method.friction = rule;
-    struct br_march *iterated = br_test_march(&scene, 50, 200, &method);
+    OWNED(br_march) *iterated = br_test_march(&scene, 50, 200, &method);
     const double z = br_march_compliance(march, BR_BENDING);
     const double tolerance = method.iteration.tolerance;
     for (int step = 1; step <= 200; step++) {
@@ -359,9 +357,6 @@ static void compare_marches(const char *name, const struct br_friction_rule *rul
     const size_t count = br_march_counts(iterated).iterations;
     assert_true(count >= 200 && count <= 200 * (size_t)most_iterations(rule, &method.iteration));
     assert_int_equal(br_march_counts(march).iterations, 0);
-    br_march_free(march);
-    br_march_free(iterated);
-    br_scene_clear(&scene);
 }
 
 TEST(test_marches)
@@ -394,7 +389,6 @@ TEST(test_no_convergence)
 
 TEST(test_refusals)
 {
-    struct br_error err = {0};
     const struct {
         const char *rule;
         struct br_iteration iteration;
@@ -426,8 +420,7 @@ TEST(test_refusals)
 /* A march whose iterations do not end says so; one with which they cannot is refused. */
 TEST(test_failing_march)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     EACH_THAT_ITERATES(rule)
     {
         struct br_method method = br_method_default();
@@ -444,7 +437,6 @@ TEST(test_failing_march)
         REFUSED(br_march_create(&march, &scene, 10, 10, &method, &err), BR_BAD_INPUT,
                 "is -1, expected a number above 0");
     }
-    br_scene_clear(&scene);
 }
 
 /* ---- NaN, and the registries ---- */

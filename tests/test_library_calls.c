@@ -492,7 +492,7 @@ TEST(callers_keep_their_handler_and_locale)
 }
 
 /* Everything once. */
-static enum br_status use_all(const void *text, struct br_error *err)
+static enum br_status use_all(const void *text, struct br_error *why)
 {
     struct beamrate_error *e = &failure;
     struct beamrate_check *check = NULL;
@@ -508,7 +508,7 @@ static enum br_status use_all(const void *text, struct br_error *err)
     beamrate_orders_free(read);
     if (e->status == BEAMRATE_OK)
         return BR_OK;
-    return br_fail(err, e->status == BEAMRATE_NO_MEMORY ? BR_NO_MEMORY : BR_VERDICT, "%s",
+    return br_fail(why, e->status == BEAMRATE_NO_MEMORY ? BR_NO_MEMORY : BR_VERDICT, "%s",
                    e->message);
 }
 

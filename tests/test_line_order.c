@@ -9,8 +9,6 @@
 
 enum { ROWS = 8, MOST = 12, SOME = 7 };
 
-static struct br_error err;
-
 /* Errors at z = 1, 1/2, 1/4, ... The finest is at z = 1/128. */
 static double power(double z)
 {

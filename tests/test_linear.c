@@ -48,7 +48,6 @@ static const struct br_field_solver *functions(const struct br_linear_solver *so
 
 static void *created(const struct br_linear_solver *solver, const struct problem *p)
 {
-    struct br_error err = {0};
     void *self;
     MUST(functions(solver, p)->create(&p->field, NULL, &self, &err));
     return self;
@@ -58,7 +57,6 @@ static void *created(const struct br_linear_solver *solver, const struct problem
 static void take_step(const struct br_field_solver *f, void *self, const struct problem *p,
                       size_t step)
 {
-    struct br_error err = {0};
     const struct br_drive drive = {
         .vector = p->vector, .factor = cos((double)step), .changed = step == 1};
     double velocity;
@@ -95,7 +93,6 @@ static void check_step_lengths(const struct br_linear_solver *solver, const stru
     const struct br_field_solver *f = functions(solver, p);
     struct problem other = *p;
     other.field.k *= 0.29;
-    struct br_error err = {0};
     void *moved = created(solver, p), *fresh = created(solver, p);
     void *there = created(solver, &other);
     const double compliance = f->tip_compliance(moved);
@@ -183,7 +180,6 @@ TEST(test_size)
 
 static void refuses(const struct problem *p, const char *text)
 {
-    struct br_error err = {0};
     void *self;
     const struct br_field_solver *f = functions(&br_umfpack, p);
     REFUSED(f->create(&p->field, NULL, &self, &err), BR_SINGULAR, text);
@@ -198,7 +194,6 @@ TEST(test_refusals)
         struct problem p = random_problem(&r);
         p.field.degree = 1;
         void *self = created(&br_umfpack, &p);
-        struct br_error err = {0};
         REFUSED(functions(&br_umfpack, &p)->set_step(self, NAN, &err), BR_SINGULAR,
                 "the matrix has an entry");
         functions(&br_umfpack, &p)->free(self);
@@ -229,7 +224,6 @@ TEST(test_too_fine)
 static void refuses_march(const struct br_scene *scene, const struct br_method *method, size_t n,
                           size_t steps, const char *text)
 {
-    struct br_error err = {0};
     struct br_march *march;
     REFUSED(br_march_create(&march, scene, n, steps, method, &err), BR_BAD_INPUT, text);
     assert_null(march);
@@ -276,7 +270,6 @@ TEST(test_marches_refused)
 TEST(test_not_finite)
 {
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
-        struct br_error err = {0};
         struct br_method method = br_method_default();
         method.solver = *s;
         struct br_scene scene = br_test_bare();
@@ -304,7 +297,7 @@ TEST(test_not_finite)
         while (!status && br_march_steps_done(march) < 800)
             status = br_march_step(march, &err);
         REFUSED(status, BR_NOT_FINITE, "the march blew up at t = ");
-        REFUSED(status, BR_NOT_FINITE, "of 800, k = 1.25 s): the axial ");
+        assert_non_null(strstr(err.message, "of 800, k = 1.25 s): the axial "));
         br_march_free(march);
         br_scene_clear(&scene);
     }
@@ -410,9 +403,8 @@ TEST(test_heeded)
     scene.bending.modelled = false;
     struct br_method method = br_test_method("riccati", NULL, NULL);
     method.kernel = &counting;
-    struct br_march *march = br_test_march(&scene, 7, 4, &method);
+    OWNED(br_march) *march = br_test_march(&scene, 7, 4, &method);
     br_test_advance(march, 4);
-    br_march_free(march);
     assert_true(steps_counted >= 4);
 }
 
@@ -468,7 +460,7 @@ TEST(test_taken)
 /* It is the solver that is taken, to the last bit. */
 TEST(test_same_as_taken)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t n[] = {8, 100};
     for (int i = 0; i < 2; i++) {
         const struct br_method chosen = br_method_default(),
@@ -478,5 +470,4 @@ TEST(test_same_as_taken)
         assert_memory_equal(&a, &b, sizeof a);
         assert_true(a.u_tip != 0 && a.w_tip != 0);
     }
-    br_scene_clear(&scene);
 }

@@ -28,7 +28,6 @@ static double largest(const double *value, size_t size)
 static size_t compare(const struct br_field *field, struct br_function *f, struct br_load_fit *fit)
 {
     enum { TIMES = 101 };
-    struct br_error err = {0};
     const size_t size = br_field_size(field);
     double *fitted = malloc(2 * size * sizeof *fitted), *direct = fitted + size;
     size_t taken = 0;
@@ -61,19 +60,17 @@ TEST(test_smooth)
         "sin(7*x - 5*t)", "1e-200*sqrt(4 + x + t)", "-1e200*cos(3*x*t)",
     };
     static const size_t n[] = {1000, 1023, 3777};
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof smooth / sizeof *smooth; i++)
         for (size_t j = 0; j < 9; j++) {
             const struct br_field field =
                 field_of(kinds[j % 3].kind, n[j / 3], kinds[j % 3].degree);
-            struct br_function f = br_test_function(smooth[i]);
+            OWNED(br_function) f = br_test_function(smooth[i]);
             struct br_load_fit *fit;
             MUST(br_load_fit_create(&field, &f, duration, &fit, &err));
             if (!fit)
                 fail_msg("%s, n = %zu: no fit", smooth[i], field.n);
             assert_true(compare(&field, &f, fit) > 95);
             br_load_fit_free(fit);
-            br_function_free(&f);
         }
 }
 
@@ -90,34 +87,30 @@ TEST(test_refused)
         "1 + exp(-((x - t - 1/7)/1e-4)^2)",
         "sin(1e5*x*t)",
     };
-    struct br_error err = {0};
     const struct br_field field = field_of(BR_AXIAL, 1000, 1);
     struct br_load_fit *fit;
     for (size_t i = 0; i < sizeof rough / sizeof *rough; i++) {
-        struct br_function f = br_test_function(rough[i]);
+        OWNED(br_function) f = br_test_function(rough[i]);
         MUST(br_load_fit_create(&field, &f, duration, &fit, &err));
         if (fit)
             fail_msg("%s has a fit", rough[i]);
-        br_function_free(&f);
     }
-    struct br_function f = br_test_function("sin(x*t)");
+    OWNED(br_function) f = br_test_function("sin(x*t)");
     struct br_field small = field_of(BR_AXIAL, 10, 1), brief = field;
     brief.k = duration;
     MUST(br_load_fit_create(&small, &f, duration, &fit, &err));
     assert_null(fit);
     MUST(br_load_fit_create(&brief, &f, duration, &fit, &err));
     assert_null(fit);
-    br_function_free(&f);
 }
 
 /* Where f is far smaller than elsewhere, or nothing is proved, the direct way is taken. */
 TEST(test_direct)
 {
-    struct br_error err = {0};
     const struct br_field field = field_of(BR_BENDING, 1000, 1);
-    struct br_function f = br_test_function("sin(x*t)*exp(20*t)");
+    OWNED(br_function) f = br_test_function("sin(x*t)*exp(20*t)");
     struct br_load_fit *fit;
-    double *vector = malloc(br_field_size(&field) * sizeof *vector);
+    FREED double *vector = malloc(br_field_size(&field) * sizeof *vector);
     assert_non_null(vector);
     MUST(br_load_fit_create(&field, &f, duration, &fit, &err));
     assert_non_null(fit);
@@ -127,23 +120,20 @@ TEST(test_direct)
     assert_false(br_load_fit_assemble(fit, &f, -1e-9, vector));
     assert_false(br_load_fit_assemble(fit, &f, 1.0001 * duration, vector));
     assert_false(br_load_fit_assemble(fit, &f, NAN, vector));
-    free(vector);
     br_load_fit_free(fit);
-    br_function_free(&f);
 }
 
-static enum br_status attempt(const void *data, struct br_error *err)
+static enum br_status attempt(const void *data, struct br_error *why)
 {
     const struct br_field field = field_of(BR_BENDING, 500, 1);
     struct br_load_fit *fit;
-    const enum br_status status = br_load_fit_create(&field, data, duration, &fit, err);
+    const enum br_status status = br_load_fit_create(&field, data, duration, &fit, why);
     br_load_fit_free(fit);
     return status;
 }
 
 TEST(test_memory)
 {
-    struct br_function f = br_test_function("sin(x*t)");
+    OWNED(br_function) f = br_test_function("sin(x*t)");
     br_test_without_memory(attempt, &f, 4);
-    br_function_free(&f);
 }

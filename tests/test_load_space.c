@@ -12,7 +12,6 @@ static struct br_warnings warnings_of(const struct br_scene *scene, size_t n, si
     const struct br_method method = br_method_default();
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = n, .steps = steps};
     struct br_warnings w = {0};
-    struct br_error err;
     MUST(br_check_loads(&o, &w, &err));
     return w;
 }
@@ -135,7 +134,6 @@ TEST(test_jump_on_level)
         method.scheme = br_time_scheme_find(by[i].scheme);
         const struct br_planned_march o = {.scene = &s, .method = &method, .n = 10, .steps = 100};
         struct br_warnings w = {0};
-        struct br_error err;
         MUST(br_check_loads(&o, &w, &err));
         const struct br_warning *one = br_test_warning(&w, BR_WARN_LOAD_TIME);
         if (!is_said(&w, BR_WARN_LOAD_TIME, by[i].said) ||
@@ -151,16 +149,14 @@ TEST(test_bundled)
 {
     char **name;
     size_t count;
-    struct br_error err;
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
-        struct br_scene scene = br_test_bundled(name[i]);
+        OWNED(br_scene) scene = br_test_bundled(name[i]);
         for (size_t n = 10; n <= 1000; n *= 10) {
             const struct br_warnings w = warnings_of(&scene, n, 10);
             if (!is_said(&w, BR_WARN_LOAD_SPACE, NULL))
                 fail_msg("%s: %s", name[i], w.list[0].text);
         }
-        br_scene_clear(&scene);
     }
     br_scene_list_free(name, count);
 }

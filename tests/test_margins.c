@@ -46,7 +46,7 @@ static struct br_method adaptive(double tolerance)
  * tolerances it falls on many places of a step, before its first stage, too. */
 TEST(test_short_slip)
 {
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     scene.duration = 10;
     scene.density = 1e-3;
     scene.axial.modelled = false;
@@ -59,7 +59,6 @@ TEST(test_short_slip)
         const struct br_test_end end = br_test_run(&scene, 4, 10, &method);
         CLOSE(end.w_tip, 2.2204315e-5, fmin(1e-6, 20 * tolerance));
     }
-    br_scene_clear(&scene);
 }
 
 /* Both laws; the rod's tip rests at the gap of 0 until its load begins. */
@@ -81,15 +80,13 @@ static struct br_scene pressed(const char *axial, const char *bending)
 /* A margin of 0 for a while is not the switch, which comes when the load does. */
 TEST(test_rest_at_gap)
 {
-    struct br_scene scene = pressed("100*(abs(t-0.613)+t-0.613)", "-100*(abs(t-0.613)+t-0.613)");
+    OWNED(br_scene) scene = pressed("100*(abs(t-0.613)+t-0.613)", "-100*(abs(t-0.613)+t-0.613)");
     for (double tolerance = 1e-3; tolerance > 1e-9; tolerance /= 3) {
         const struct br_method method = adaptive(tolerance);
-        struct br_march *march = br_test_march(&scene, 4, 10, &method);
+        OWNED(br_march) *march = br_test_march(&scene, 4, 10, &method);
         br_test_advance(march, 10);
         AT_MOST((double)br_march_counts(march).steps, 1000);
-        br_march_free(march);
     }
-    br_scene_clear(&scene);
 }
 
 /* By a tolerance and by a far smaller one the march comes to the same place. */
@@ -125,7 +122,6 @@ TEST(test_jump_and_blow)
 /* bdf3 is not stable on the imaginary axis: within 800 steps such a beam is off by its own size. */
 TEST(test_undamped)
 {
-    struct br_error err = {0};
     struct br_march *march;
     struct br_scene scene = br_test_bare();
     struct br_method method = br_test_method(NULL, "implicit", NULL);

@@ -25,9 +25,8 @@ TEST(test_worst)
         size_t bad;
     } rows[] = {{1e-15, 2e-15, 0}, {0.5, 0.25, 2}, {0.25, 0.5, 2}, {NAN, 1e-15, 1},
                 {1e-15, NAN, 1},   {NAN, 0.5, 2},  {0.5, NAN, 2}};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         struct br_run_report report;
         const struct br_run_request request = {.scene = &scene,
                                                .method = br_test_method(NULL, NULL, NULL),
@@ -45,5 +44,4 @@ TEST(test_worst)
         else
             CLOSE(report.energy_worst, fmax(rows[i].third, rows[i].fourth), 0);
     }
-    br_scene_clear(&scene);
 }

@@ -71,7 +71,6 @@ TEST(test_refusals)
 
 static struct br_scene scene_of(const char *text)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     MUST(br_scene_read_text("made.yaml", text, &scene, &err));
     return scene;
@@ -80,8 +79,9 @@ static struct br_scene scene_of(const char *text)
 /* u = x^2 (t^2 + t), w = x^4 (t^2 + t), with L = 2 and the constants above. */
 TEST(test_data)
 {
-    struct br_scene s = scene_of(TOP AXIAL "  solution: x^2*(t^2 + t)  [m]\n" BENDING
-                                           "  solution: x^4*(t^2 + t) [m]\n" CONTACT COULOMB);
+    OWNED(br_scene)
+    s = scene_of(TOP AXIAL "  solution: x^2*(t^2 + t)  [m]\n" BENDING
+                           "  solution: x^4*(t^2 + t) [m]\n" CONTACT COULOMB);
     const double x = 0.7, t = 0.6, g = t * t + t, g_t = 2 * t + 1, tip = 2;
     assert_string_equal(s.axial.solution, "x^2*(t^2 + t)");
     assert_false(s.axial.load.term[0].space.uses_t); /* products, assembled once */
@@ -100,7 +100,6 @@ TEST(test_data)
     CLOSE(br_function_at(&s.bending.velocity_slope, x, 9), 4 * pow(x, 3), 1e-14);
     assert_true(!s.axial.tip_force.uses_x && !s.axial.velocity.uses_t && s.axial.velocity.uses_x);
     CLOSE(br_function_at(&s.axial.displacement, x, 9), 0, 0);
-    br_scene_clear(&s);
 }
 
 /* At rest, then slipping back: lambda = stick force, then -b; an open contact gives none. */
@@ -147,7 +146,6 @@ TEST(test_derivatives)
         {"(x + t - 1)^2*step(x + t - 1)", {1, 1}, 0.5, 0.5, 2},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         struct br_function f = br_test_function(rows[i].text), d;
         MUST(br_function_derivative(&f, rows[i].order, &d, &err));
         CLOSE(br_function_at(&d, rows[i].x, rows[i].t), rows[i].expected, 1e-9);
@@ -206,14 +204,12 @@ static const struct {
 TEST(test_given)
 {
     for (size_t i = 0; i < sizeof solutions / sizeof *solutions; i++) {
-        struct br_error err = {0};
-        struct br_function f = br_test_function(solutions[i].text);
+        OWNED(br_function) f = br_test_function(solutions[i].text);
         const struct br_given s = {&f, solutions[i].kind, 1, 1};
         if (solutions[i].message)
             REFUSED(br_given_check(&s, &err), BR_BAD_INPUT, solutions[i].message);
         else
             MUST(br_given_check(&s, &err));
-        br_function_free(&f);
     }
 }
 
@@ -225,7 +221,6 @@ TEST(test_projection)
 {
     static const size_t mesh[] = {5, 3};
     static const double factor[] = {9, 6, 6}; /* of exp(x) and all its derivatives */
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.length = 2;
     scene.duration = 6;
@@ -270,8 +265,7 @@ TEST(test_exact)
         scene_of(TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
                            "  solution: x^2*(3 - x)*(1 - 2*t) [m]\n" CONTACT COULOMB);
     static const size_t n[] = {3, 7}, steps[] = {5, 40};
-    struct br_error err = {0};
-    struct br_study s = study_of(&scene, n, steps);
+    OWNED(br_study) s = study_of(&scene, n, steps);
     MUST(br_study_run(&s, 1, 2, NULL, &err));
     for (size_t c = 0; c < 4; c++)
         for (int p = 0; p < BR_PARTS; p++)
@@ -280,7 +274,6 @@ TEST(test_exact)
     AT_MOST(s.reference_report.own_error[BR_BENDING][BR_DISPLACEMENT], 1e-13 * s.reference_scale);
     assert_string_equal(s.events,
                         "Manufactured solution: u = x*(1 + t), w = x^2*(3 - x)*(1 - 2*t).\n");
-    br_study_clear(&s);
     br_scene_clear(&scene);
 }
 
@@ -288,19 +281,16 @@ TEST(test_exact)
 TEST(test_threads)
 {
     static const size_t n[] = {4, 6}, steps[] = {20, 30};
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("mms_opening");
+    OWNED(br_scene) scene = br_test_bundled("mms_opening");
     double one[4] = {0};
     for (int threads = 1; threads <= 4; threads++) {
-        struct br_study s = study_of(&scene, n, steps);
+        OWNED(br_study) s = study_of(&scene, n, steps);
         MUST(br_study_run(&s, 1, threads, NULL, &err));
         for (size_t c = 0; c < 4; c++) {
             one[c] = threads == 1 ? s.cell[c].error[0] : one[c];
             assert_true(s.cell[c].error[0] == one[c] && one[c] > 0);
         }
-        br_study_clear(&s);
     }
-    br_scene_clear(&scene);
 }
 
 /* Coulomb's bound takes the axial tip value, which is right to O(h^2) only: on fine meshes the
@@ -314,33 +304,28 @@ TEST(test_coulomb_limit)
     } rows[] = {{"mms_opening", 2}, {"mms_stick", 4}};
     static const size_t n[] = {96, 128}, steps = 1000;
     for (size_t i = 0; i < 2 && !br_test_quick(); i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bundled(rows[i].scene);
-        struct br_study s = br_test_study(&scene, &br_reference_fine, 2, n, 1, &steps);
+        OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
+        OWNED(br_study) s = br_test_study(&scene, &br_reference_fine, 2, n, 1, &steps);
         s.method = s.reference_method = br_test_method(NULL, "implicit", NULL);
         s.reference = (struct br_resolution){768, steps};
         MUST(br_study_run(&s, 1, 2, NULL, &err));
         CLOSE(log(s.cell[0].error[BR_PART_BENDING] / s.cell[1].error[BR_PART_BENDING]) /
                   log(4.0 / 3),
               rows[i].order, 0.1);
-        br_study_clear(&s);
-        br_scene_clear(&scene);
     }
 }
 
 /* ---- out of memory ---- */
 
-static enum br_status attempt(const void *text, struct br_error *err)
+static enum br_status attempt(const void *text, struct br_error *why)
 {
     static const size_t n[] = {2, 3}, steps[] = {2, 3};
-    struct br_scene scene;
-    enum br_status status = br_scene_read_text("made.yaml", text, &scene, err);
+    OWNED(br_scene) scene;
+    enum br_status status = br_scene_read_text("made.yaml", text, &scene, why);
     if (!status) {
-        struct br_study s = study_of(&scene, n, steps);
-        status = br_study_run(&s, 1, 1, NULL, err);
-        br_study_clear(&s);
+        OWNED(br_study) s = study_of(&scene, n, steps);
+        status = br_study_run(&s, 1, 1, NULL, why);
     }
-    br_scene_clear(&scene);
     return status;
 }
 
@@ -378,8 +363,7 @@ static const struct forced {
 TEST(test_tip_breaks)
 {
     for (size_t i = 0; i < sizeof forced / sizeof *forced; i++) {
-        struct br_error err = {0};
-        struct br_scene s = scene_of(forced[i].text);
+        OWNED(br_scene) s = scene_of(forced[i].text);
         struct br_breaks breaks = {0};
         const struct br_function *f = &s.field[forced[i].kind].tip_force;
         MUST(br_breaks_add(f, BR_T, (struct br_box){{0, 2}, {0, 1}}, &breaks, &err));
@@ -387,6 +371,5 @@ TEST(test_tip_breaks)
         for (size_t k = 0; k < breaks.count; k++)
             CLOSE(breaks.at[k].low, forced[i].at[k], 1e-8);
         br_breaks_free(&breaks);
-        br_scene_clear(&s);
     }
 }

@@ -199,8 +199,7 @@ static void check_meshes(struct trial *t, enum br_layout layout)
 
 static void check_row(struct trial *t)
 {
-    struct br_error err = {0};
-    struct br_store store = {0};
+    OWNED(br_store) store = {0};
     const struct br_mesh_list root = {1, &sequences[t->row].finest},
                               levels = {sequences[t->row].count, sequences[t->row].n};
     MUST(br_nested_meshes_create(&t->nested, t->modes, &root, &levels, &store, &err));
@@ -210,7 +209,6 @@ static void check_row(struct trial *t)
     for (int i = 0; i < 3; i++)
         if (layouts[i] != BR_BY_NODE || t->modes > 1)
             check_meshes(t, layouts[i]);
-    br_store_clear(&store);
 }
 
 TEST(test_all_kernels)
@@ -234,13 +232,11 @@ TEST(test_refusals)
     } rows[] = {{{4, 5}, "n = 5 does not divide the reference's 12"}, {{0, 1}, "n is 0"}};
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
     for (size_t i = 0; i < 2; i++) {
-        struct br_error err = {0};
         struct br_nested_meshes *nested;
-        struct br_store store = {0};
+        OWNED(br_store) store = {0};
         REFUSED(br_nested_meshes_create(&nested, 2, &twelve, &(struct br_mesh_list){2, rows[i].n},
                                         &store, &err),
                 BR_BAD_INPUT, rows[i].message);
-        br_store_clear(&store);
     }
 }
 

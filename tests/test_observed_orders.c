@@ -12,8 +12,6 @@
 enum { ROWS = 4, COLUMNS = 4, CELLS = ROWS * COLUMNS };
 static const size_t n[ROWS] = {25, 50, 100, 200}, steps[COLUMNS] = {100, 200, 400, 800};
 
-static struct br_error err;
-
 /* A study of errors a h^p + b k^q of a rod, and the differences of its meshes. */
 struct made {
     struct br_scene scene;
@@ -164,7 +162,7 @@ TEST(test_no_order_of_zero)
 
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
-    struct br_report r = m->report;
+    OWNED(br_report) r = m->report;
     observe(&r);
     assert_true(r.observed[part][BR_AXIS_SPACE].theory.order == in_h);
     assert_true(r.observed[part][BR_AXIS_TIME].theory.order == in_k);

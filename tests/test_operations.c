@@ -118,7 +118,6 @@ static real difference(const struct br_tree *tree, enum br_variable by, real x, 
 static void check_derivative(const char *text, const struct br_tree *tree, enum br_variable by,
                              struct br_tree *derivative)
 {
-    struct br_error err;
     MUST(br_tree_derive(tree, by, derivative, &err));
     for (real x = 0.15L; x < 0.9L; x += 0.1L)
         for (real t = 0.17L; t < 0.9L; t += 0.1L) {
@@ -171,7 +170,6 @@ TEST(test_derivatives)
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         struct br_tree tree, once, twice;
-        struct br_error err;
         MUST(br_expression_parse(texts[i], &tree, &err));
         for (int by = BR_X; by <= BR_T; by++) {
             check_derivative(texts[i], &tree, (enum br_variable)by, &once);
@@ -193,7 +191,6 @@ TEST(test_simplified)
                 {"exp(x)", 2}, {"x^2", 3}, {"sin(x)", 2}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_tree tree, derived;
-        struct br_error err;
         MUST(br_expression_parse(rows[i].text, &tree, &err));
         MUST(br_tree_derive(&tree, BR_X, &derived, &err));
         assert_int_equal(derived.count, rows[i].nodes);
@@ -202,13 +199,12 @@ TEST(test_simplified)
     }
 }
 
-static enum br_status derive(const void *f, struct br_error *err)
+static enum br_status derive(const void *f, struct br_error *why)
 {
     const struct br_derivation what = {2, {{2, {1, 1}}, {3, {0, 2}}}, 0.5, NAN};
-    struct br_function out;
-    const enum br_status status = br_function_derive(f, &what, &out, err);
+    OWNED(br_function) out;
+    const enum br_status status = br_function_derive(f, &what, &out, why);
     assert_true(status ? !out.ops : out.uses_t && !out.uses_x);
-    br_function_free(&out);
     return status;
 }
 
@@ -218,7 +214,6 @@ TEST(test_derivation_refusals)
     struct br_function f =
         br_test_function("sin(x*exp(t)*sin(x*cos(x*exp(t*x^2)+log(2+x*t))))^t^x");
     struct br_function out;
-    struct br_error err;
     REFUSED(br_function_derivative(&f, (struct br_partial){9, 3}, &out, &err), BR_BAD_INPUT,
             "more than 10000 operations");
     assert_null(out.ops);

@@ -46,13 +46,12 @@ static char *read_all(FILE *in)
  * folder. */
 __attribute__((format(printf, 1, 2))) static int run(const char *format, ...)
 {
-    char *command = NULL;
+    FREED char *command = NULL;
     va_list args;
     va_start(args, format);
     assert_true(vasprintf(&command, format, args) > 0);
     va_end(args);
     const int status = system(command);
-    free(command);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
@@ -94,7 +93,7 @@ static void plant(const struct planted_bug *bug)
     snprintf(path, sizeof path, "%s/%s", environment("BEAMRATE_SOURCE"), bug->file);
     FILE *in = fopen(path, "r");
     assert_non_null(in);
-    char *source = read_all(in);
+    FREED char *source = read_all(in);
     fclose(in);
     char *at = strstr(source, bug->text);
     if (!at || strstr(at + 1, bug->text))
@@ -106,7 +105,6 @@ static void plant(const struct planted_bug *bug)
     fprintf(out, "%.*s%s%s", (int)(at - source), source, bug->instead, at + strlen(bug->text));
     choose_test(bug, out);
     assert_int_equal(fclose(out), 0);
-    free(source);
 }
 
 /* Compiles the planted source as the build would by one of its commands, but with little

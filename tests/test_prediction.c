@@ -53,7 +53,6 @@ static void count_cell(struct tally *t, const struct br_study *s, const struct b
                        double budget)
 {
     static const enum br_part parts[2] = {BR_PART_AXIAL, BR_PART_BENDING};
-    struct br_error err = {0};
     struct br_prediction p;
     const struct br_planned_march o = {.scene = s->scene,
                                        .method = &s->method,
@@ -78,9 +77,8 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
                     const struct br_study *shape, double budget)
 {
     struct br_named_method c;
-    struct br_error err = {0};
     MUST(br_named_method_read(name, &c, &err));
-    struct br_study s = *shape;
+    OWNED(br_study) s = *shape;
     s.scene = scene;
     s.norm = &br_norm_l2;
     s.method = c.method;
@@ -89,7 +87,6 @@ static void measure(struct tally *t, const struct br_scene *scene, const char *n
     MUST(br_study_run_each(&s, 1, 0, NULL, &err));
     for (size_t i = 0; !s.failure.status && i < br_study_cells(&s); i++)
         count_cell(t, &s, &s.cell[i], budget);
-    br_study_clear(&s);
 }
 
 /* Bundled scenes against the exact solution; budget: as in struct br_planned_march. */
@@ -102,11 +99,10 @@ static struct tally measure_bundled(double budget, const char *what)
         .n_count = MESHES, .k_count = STEPS, .n = meshes, .steps = steps};
     struct tally t = {0};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i += br_test_quick() ? 4 : 1) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[i]);
         for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
             if (br_test_long() || (i + m) % 3 == 0)
                 measure(&t, &scene, methods[m], &shape, budget);
-        br_scene_clear(&scene);
     }
     show(what, &t);
     return t;
@@ -213,7 +209,6 @@ static struct br_prediction predict(const struct br_scene *scene, const struct b
                                     size_t n, size_t k)
 {
     const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
-    struct br_error err = {0};
     struct br_prediction p;
     MUST(br_predict(&o, &p, &err));
     return p;
@@ -227,8 +222,7 @@ TEST(test_layer)
                                "density: 1 kg/m\nbending:\n  stiffness: 0.001 N m^2\n"
                                "  viscosity: 200 N m^2 s\n  velocity: 0.01*x^2 [m/s]\n"
                                "  velocity_slope: 0.02*x [1/s]\n";
-    struct br_scene s;
-    struct br_error err = {0};
+    OWNED(br_scene) s;
     struct tally t = {0};
     MUST(br_scene_read_text("layer", text, &s, &err));
     static const size_t few[] = {8, 32}, some[] = {1, 4, 16};
@@ -246,7 +240,6 @@ TEST(test_layer)
     assert_true(p.known);
     AT_MOST(p.whole.low, p.whole.error / 3);
     AT_MOST(2.99999 * p.whole.error, p.whole.high);
-    br_scene_clear(&s);
 }
 
 /* ---- what is plainly inaccurate, or not known ---- */
@@ -256,7 +249,6 @@ static struct br_warnings warnings_of(const struct br_scene *scene, const struct
 {
     const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_warnings w = {0};
-    struct br_error err = {0};
     MUST(br_check_ahead(&o, &w, &err));
     return w;
 }
@@ -284,7 +276,7 @@ TEST(test_inaccurate)
  * and it is said so, with the reason. */
 TEST(test_not_known)
 {
-    struct br_scene s = br_test_bare();
+    OWNED(br_scene) s = br_test_bare();
     struct br_method method = br_method_default();
     struct br_prediction p = predict(&s, &method, 10, 10);
     assert_true(p.known && p.bounded && p.whole.high == 0);
@@ -302,14 +294,13 @@ TEST(test_not_known)
     method.contact = br_contact_rule_find("implicit");
     p = predict(&s, &method, 10, 10);
     assert_true(p.known);
-    br_scene_clear(&s);
 }
 
 /* ---- warnings ---- */
 
 TEST(test_warnings)
 {
-    struct br_scene s = br_test_bundled("example2");
+    OWNED(br_scene) s = br_test_bundled("example2");
     struct br_method method = br_method_default();
     struct br_warnings w = warnings_of(&s, &method, 100, 1000);
     assert_int_equal(w.count, 0);
@@ -326,7 +317,6 @@ TEST(test_warnings)
     assert_non_null(strstr(one->text, "--solver umfpack at n = 6400"));
     assert_non_null(strstr(one->remedy, "--solver auto"));
     assert_null(br_test_warning(&w, BR_WARN_INACCURATE));
-    br_scene_clear(&s);
 }
 
 /* What the hard scenes begin with. */
@@ -430,7 +420,6 @@ static const struct {
 static struct br_planned_march hard_march(size_t i, struct br_scene *s, struct br_named_method *c,
                                           struct br_prediction *p)
 {
-    struct br_error err = {0};
     char text[1000];
     snprintf(text, sizeof text, "title: t\n%s\n", hard[i].text);
     MUST(br_scene_read_text("hard", text, s, &err));
@@ -442,9 +431,8 @@ static struct br_planned_march hard_march(size_t i, struct br_scene *s, struct b
 TEST(test_hard)
 {
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
-        struct br_error err = {0};
         struct br_named_method c;
-        struct br_scene s;
+        OWNED(br_scene) s;
         struct br_prediction p;
         struct br_warnings w = {0};
         const struct br_planned_march o = hard_march(i, &s, &c, &p);
@@ -460,7 +448,6 @@ TEST(test_hard)
         if (!right)
             fail_msg("%s: known %d, %g to %g, %s", hard[i].what, p.known, p.whole.low, p.whole.high,
                      p.why);
-        br_scene_clear(&s);
     }
 }
 
@@ -470,9 +457,8 @@ TEST(test_hard_extrapolated)
 {
     size_t known = 0;
     for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
-        struct br_error err = {0};
         struct br_named_method c;
-        struct br_scene s;
+        OWNED(br_scene) s;
         struct br_prediction p;
         struct br_planned_march o = hard_march(i, &s, &c, &p);
         o.budget = 3e5;
@@ -481,7 +467,6 @@ TEST(test_hard_extrapolated)
             fail_msg("%s: %g, stated %g to %g", hard[i].what, hard[i].off, p.whole.low,
                      p.whole.high);
         known += p.known && strcmp(hard[i].what, "a creeping tip") == 0;
-        br_scene_clear(&s);
     }
     assert_int_equal(known, 1);
 }

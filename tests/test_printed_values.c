@@ -34,10 +34,10 @@ struct watched {
 };
 
 static enum br_status write_fields(void *self, const struct br_march *march,
-                                   const struct br_history_row *row, struct br_error *err)
+                                   const struct br_history_row *row, struct br_error *why)
 {
     struct watched *w = self;
-    (void)err;
+    (void)why;
     br_fields_add(&w->fields, march, row);
     return BR_OK;
 }
@@ -78,7 +78,6 @@ static void march_and_write(struct watched *w)
 {
     const struct br_provenance provenance = {
         .version = "1", .commit = "c", .command_line = "beamrate run", .scene_text = "title: a\n"};
-    struct br_error err = {0};
     char path[64];
     const struct br_history_observer output[] = {
         br_history_recorder(&w->record, ELEMENTS),
@@ -168,7 +167,7 @@ TEST(fields_are_printed)
 TEST(middles_are_fields)
 {
     enum { N = 3, NODES = N + 1 };
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     struct br_method method = br_method_default();
     scene.axial.displacement = br_test_function("x*(2 - x)");
     scene.axial.velocity = br_test_function("x^2");
@@ -177,7 +176,7 @@ TEST(middles_are_fields)
     for (int degree = 1; degree <= 2; degree++) {
         double values[BR_FIELD_VARIABLES * NODES], work[4 * NODES];
         method.axial_degree = degree;
-        struct br_march *march = br_test_march(&scene, N, 1, &method);
+        OWNED(br_march) *march = br_test_march(&scene, N, 1, &method);
         br_field_values(march, values, work);
         for (size_t i = 1; i < NODES; i++) {
             const double x = (double)i / N, middle = x - 0.5 / N;
@@ -189,9 +188,7 @@ TEST(middles_are_fields)
             }
         }
         assert_true(degree == 1 || isnan(values[6 * NODES]));
-        br_march_free(march);
     }
-    br_scene_clear(&scene);
 }
 
 AROUND_TESTS(set_up, tear_down)

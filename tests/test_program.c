@@ -1,135 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Foreign programs: small scripts, written here, that do what programs do, good and bad. */
-#include "checks.h"
-
-#include <dlfcn.h>
-#include <errno.h>
 #include <math.h>
-#include <pthread.h>
-#include <signal.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "orders/program/process.h"
-#include "orders/request.h"
+#include "made_programs.h"
 
-static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
 static const struct br_resolution_column unknowns = {
     .name = "dofs", .axis = BR_AXIS_SPACE, .is_volume = true};
-static const struct br_resolution_column step = {
-    .name = "k", .axis = BR_AXIS_TIME, .is_size = true};
-
-static char folder[] = "/tmp/beamrate-test-XXXXXX";
-static const double three[] = {16, 4, 8}, two[] = {0.05, 0.1};
-static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX,
-                                              NULL,  false,      false};
-
-/* Longer than any run takes that ends by itself, s. */
-enum { PATIENCE = 600 };
-
-/* n in {4, 8, 16}, one run at once. */
-static struct br_orders_request program(const char *command)
-{
-    return (struct br_orders_request){.command = (char *)command,
-                                      .axis[BR_AXIS_SPACE] = {&cells, three, 3},
-                                      .dimension = 1,
-                                      .reading = &err_reading,
-                                      .readings = 1,
-                                      .jobs = 1,
-                                      .seconds = PATIENCE};
-}
-
-static const char *path_of(const char *name)
-{
-    static char path[4][128];
-    static size_t last;
-    last = (last + 1) % 4;
-    snprintf(path[last], sizeof path[last], "%s/%s", folder, name);
-    return path[last];
-}
-
-static void write_script(const char *name, const char *text)
-{
-    FILE *file = fopen(path_of(name), "w");
-    assert_non_null(file);
-    fprintf(file, "#!/bin/sh\n%s\n", text);
-    assert_int_equal(fclose(file), 0);
-    assert_int_equal(chmod(path_of(name), 0755), 0);
-}
-
-/* The command of a script in the folder, with these words behind it. */
-static const char *command_of(const char *name, const char *words)
-{
-    static char command[512];
-    snprintf(command, sizeof command, "%s %s", path_of(name), words);
-    return command;
-}
-
-/* A shell command, in the folder, that must succeed. */
-__attribute__((format(printf, 1, 2))) static void shell(const char *format, ...)
-{
-    char command[1024];
-    va_list arguments;
-    const int used = snprintf(command, sizeof command, "cd %s && ", folder);
-    va_start(arguments, format);
-    vsnprintf(command + used, sizeof command - (size_t)used, format, arguments);
-    va_end(arguments);
-    if (system(command) != 0)
-        fail_msg("failed: %s", command);
-}
-
-static void has_entries(const char *name, size_t count)
-{
-    shell("test $(ls -A %s | wc -l) -eq %zu", name, count);
-}
-
-static struct br_numbers numbers; /* of the last run */
-static struct br_error err;
-
-static void run(const struct br_orders_request *p)
-{
-    br_numbers_clear(&numbers);
-    MUST(br_program_run(p, &numbers, &err));
-    has_entries("tmp", 0);
-}
-
-static void refuse(const struct br_orders_request *p, enum br_status status, const char *message)
-{
-    br_numbers_clear(&numbers);
-    REFUSED(br_program_run(p, &numbers, &err), status, message);
-    assert_null(numbers.row);
-}
-
-/* The last run ends once the others have made their marks: if it does not within the time limit,
- * the machine is loaded, and all run again with a longer one. */
-static void run_limited(struct br_orders_request *p, double seconds, const char *marks)
-{
-    for (p->seconds = seconds;; p->seconds *= 4) {
-        shell("rm -f %s", marks);
-        run(p);
-        if (!numbers.row[numbers.rows - 1].failure || p->seconds > PATIENCE)
-            return;
-    }
-}
 
 /* ---- good programs ---- */
-
-static const char good[] = "awk -v n=$1 -v k=$2 'BEGIN { printf \"err=%.17g\\n\", 1 / n^2 + k }'";
-
-static struct br_orders_request on_grid(int jobs)
-{
-    write_script("good", good);
-    struct br_orders_request p = program(command_of("good", "{n} {k}"));
-    p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, two, 2};
-    p.jobs = jobs;
-    return p;
-}
 
 TEST(test_grid)
 {
@@ -405,7 +288,7 @@ TEST(test_cells_of_runs)
 {
     static const double list[] = {4, 8, 16};
     write_script("counting", "echo err=$1");
-    struct br_orders_request p = br_orders_request_default();
+    OWNED(br_orders_request) p = br_orders_request_default();
     MUST(br_orders_request_reading(&p, "err", "err=(.*)", &err));
     p.command = strdup(command_of("counting", "{cells}"));
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){
@@ -413,7 +296,6 @@ TEST(test_cells_of_runs)
     run(&p);
     assert_true(numbers.assumed && numbers.dimension == 1);
     CLOSE(numbers.row[2].z[BR_AXIS_SPACE], 1. / 16, 1e-15);
-    br_orders_request_clear(&p);
 }
 
 /* One run after the other: their times do not overlap. */
@@ -493,15 +375,13 @@ TEST(test_refused_lists)
         {"4,8,1e300", "n: found 1e+300, expected a whole number above 0"},
     };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        struct br_orders_request r = br_orders_request_default();
+        OWNED(br_orders_request) r = br_orders_request_default();
         REFUSED(br_orders_request_axis(&r, "n", lists[i][0], &err), BR_BAD_INPUT, lists[i][1]);
-        br_orders_request_clear(&r);
     }
-    struct br_orders_request r = br_orders_request_default();
+    OWNED(br_orders_request) r = br_orders_request_default();
     MUST(br_orders_request_reading(&r, "err", "err=(.*)", &err));
     REFUSED(br_orders_request_reading(&r, "err", "e=(.*)", &err), BR_BAD_INPUT,
             "err is read twice");
-    br_orders_request_clear(&r);
     struct br_orders_request p = program("true {n}");
     p.axis[BR_AXIS_SPACE].column = NULL;
     refuse(&p, BR_BAD_INPUT, "no list");
@@ -568,45 +448,6 @@ TEST(test_long_complaint)
     }
 }
 
-/* The process whose number is in the file does nothing, a moment after it was killed, which it may
- * need to die. A dead one may wait to be buried by others. */
-static void expect_dead(const char *name)
-{
-    shell("for i in $(seq 15000); do grep -qs '^State:.[^ZX]' /proc/$(cat %s)/status || exit 0; "
-          "sleep 0.02; done; exit 1",
-          name);
-}
-
-/* The first obeys SIGTERM, the second and what it starts do not, the third leaves what it has
- * started; no child of theirs survives. */
-TEST(test_hanging)
-{
-    static const double all[] = {4, 8, 16};
-    write_script("hang", "[ $1 = 8 ] && trap '' TERM\n"
-                         "sleep 3600 & echo $! > $0.$1\n"
-                         "[ $1 = 8 ] && trap 'echo term >> $0.terms' TERM\n"
-                         "echo before >&2; touch $0.mark$1\n"
-                         "[ $1 != 16 ] || while :; do\n"
-                         "[ -e $0.mark4 ] && [ -e $0.mark8 ] && echo err=1 && exit\n"
-                         "sleep 0.02; done\n"
-                         "while [ $1 = 8 ]; do sleep 0.1; done; wait");
-    struct br_orders_request p = program(command_of("hang", "{n}"));
-    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, all, 3};
-    p.jobs = 3;
-    const double start = br_seconds();
-    run_limited(&p, 1, "hang.mark* hang.terms");
-    AT_MOST(2.9, br_seconds() - start);
-    char said[80];
-    snprintf(said, sizeof said, "it did not end within %g s; it printed: before", p.seconds);
-    assert_string_equal(numbers.row[0].failure, said);
-    assert_non_null(strstr(numbers.row[1].failure, said + strlen("it did not end ")));
-    assert_null(numbers.row[2].failure);
-    shell("test $(wc -l < hang.terms) -eq 1");
-    expect_dead("hang.4");
-    expect_dead("hang.8");
-    expect_dead("hang.16");
-}
-
 /* ---- cost ---- */
 
 TEST(test_cost)
@@ -635,7 +476,7 @@ TEST(test_cost_of_the_system)
     write_script("system", "dd if=/dev/zero of=/dev/null bs=1M count=3000 2>/dev/null\n"
                            "times >$0.times; awk -F '[ms ]+' 'NR == 2 { print \"used=\" 60 * ($1 "
                            "+ $3) + $2 + $4 }' $0.times\necho err=1");
-    struct br_orders_request p = br_orders_request_default();
+    OWNED(br_orders_request) p = br_orders_request_default();
     MUST(br_orders_request_reading(&p, "err", "err=(.*)", &err));
     MUST(br_orders_request_reading(&p, "used", "used=(.*)", &err));
     p.command = strdup(command_of("system", "{cells}"));
@@ -643,7 +484,6 @@ TEST(test_cost_of_the_system)
         br_resolution_column_find("cells"), memcpy(malloc(sizeof one), one, sizeof one), 1};
     run(&p);
     AT_MOST(0.9 * numbers.row[0].number[1], numbers.row[0].seconds);
-    br_orders_request_clear(&p);
 }
 
 /* The memory of a cell is that of the run that takes the most, here its second. */
@@ -657,409 +497,6 @@ TEST(test_memory_of_repeated)
     p.repeat = 3;
     run(&p);
     AT_MOST(1.3e8, numbers.row[0].bytes);
-}
-
-/* ---- cached cells ---- */
-
-static const char counting[] = "echo run >> $0.runs; [ $1 = 8 ] && [ -e $0.fails ] && exit 1\n"
-                               "echo err=$1";
-
-static void expect_run(struct br_orders_request *p, size_t runs, double factor)
-{
-    run(p);
-    size_t cached = 0;
-    for (size_t i = 0; i < numbers.rows; i++) {
-        assert_null(numbers.row[i].failure);
-        assert_true(numbers.row[i].number[0] == factor * numbers.row[i].given[0]);
-        AT_MOST(numbers.row[i].seconds, 5);
-        cached += numbers.row[i].cached;
-    }
-    assert_int_equal(cached, numbers.rows - runs);
-    shell("touch count.runs; test $(wc -l < count.runs) -eq %zu && rm count.runs", runs);
-}
-
-TEST(test_cache)
-{
-    static const double four[] = {4, 8, 16, 32};
-    write_script("count", counting);
-    char cache[128];
-    snprintf(cache, sizeof cache, "%s", path_of("cache"));
-    struct br_orders_request p = program(command_of("count", "{n}"));
-    p.cache = cache;
-    expect_run(&p, 3, 1);
-    expect_run(&p, 0, 1);
-    p.anew = true;
-    expect_run(&p, 3, 1);
-    p.anew = false;
-    has_entries(cache, 3);
-    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
-    expect_run(&p, 1, 1);
-    const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX, NULL, false, false};
-    p.reading = &other;
-    expect_run(&p, 4, 1);
-    p.reading = &err_reading;
-    write_script("count", "echo run >> $0.runs; echo err=$(($1 * 2))");
-    expect_run(&p, 4, 2);
-    expect_run(&p, 0, 2);
-    has_entries(cache, 12);
-    write_script("count", counting); /* as it was */
-    expect_run(&p, 0, 1);
-}
-
-/* A script that an interpreter runs counts, too, also behind a =. */
-TEST(test_cached_script)
-{
-    static const char *const forms[] = {
-        "script {n}",
-        "/bin/sh %s {n}",
-        "/usr/bin/env SCRIPT=%s sh -c '. $SCRIPT' x {n}",
-    };
-    char command[256], cache[128], folders[256];
-    char *before = strdup(getenv("PATH"));
-    snprintf(cache, sizeof cache, "%s", path_of("cache-script"));
-    snprintf(folders, sizeof folders, "/no/such/folder:%s:/usr/bin:/bin", folder);
-    setenv("PATH", folders, 1);
-    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
-        snprintf(command, sizeof command, forms[i], path_of("script"));
-        struct br_orders_request p = program(command);
-        p.cache = cache;
-        for (int version = 1; version <= 2; version++) {
-            char text[64];
-            snprintf(text, sizeof text, "echo err=%d", version);
-            write_script("script", text);
-            for (int again = 0; again < 2; again++) {
-                run(&p);
-                assert_true(numbers.row[0].number[0] == version);
-                assert_int_equal(numbers.row[0].cached, again);
-            }
-        }
-    }
-    setenv("PATH", before, 1);
-    free(before);
-}
-
-/* Failed cells are not kept, nor read those that are broken. */
-TEST(test_not_cached)
-{
-    char cache[128];
-    snprintf(cache, sizeof cache, "%s", path_of("cache-not"));
-    write_script("count", counting);
-    write_script("count.fails", "");
-    struct br_orders_request p = program(command_of("count", "{n}"));
-    p.cache = cache;
-    run(&p);
-    assert_non_null(numbers.row[1].failure);
-    has_entries(cache, 2);
-    shell("rm count.fails count.runs");
-    expect_run(&p, 1, 1);
-    static const char *const texts[] = {"", "beamrate kept 1\n", "beamrate kept 2\n"};
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        shell("for cell in %s/*; do printf '%s' > $cell; done", cache, texts[i]);
-        expect_run(&p, 3, 1);
-    }
-    expect_run(&p, 0, 1);
-    p.cache = "/dev/null";
-    refuse(&p, BR_IO, "/dev/null: a finished cell could not be");
-    p.cache = "/no/such/folder";
-    refuse(&p, BR_IO, "/no/such/folder: No such file");
-}
-
-/* The kernel tells no exit codes to those who ignore SIGCHLD. */
-TEST(test_unseen)
-{
-    write_script("unseen", "echo err=1; exit $1");
-    const struct br_orders_request p = program(command_of("unseen", "{n}"));
-    signal(SIGCHLD, SIG_IGN);
-    br_numbers_clear(&numbers);
-    REFUSED(br_program_run(&p, &numbers, &err), BR_IO, "the exit code of a program is not known");
-    signal(SIGCHLD, SIG_DFL);
-}
-
-/* Studies that run beside each other with one folder of cached cells. */
-TEST(test_together)
-{
-    char cache[128];
-    snprintf(cache, sizeof cache, "%s", path_of("cache-together"));
-    struct br_orders_request p = on_grid(1);
-    p.cache = cache;
-    pid_t child[3];
-    for (int i = 0; i < 3; i++) {
-        child[i] = fork();
-        assert_true(child[i] >= 0);
-        if (child[i] == 0)
-            _exit(br_program_run(&p, &numbers, &err) || numbers.row[5].failure);
-    }
-    for (int i = 0; i < 3; i++) {
-        int status;
-        assert_int_equal(waitpid(child[i], &status, 0), child[i]);
-        assert_int_equal(status, 0);
-    }
-    has_entries(cache, 6);
-    p.cache = NULL;
-    run(&p);
-    double anew[6];
-    for (size_t i = 0; i < 6; i++) {
-        assert_false(numbers.row[i].cached);
-        anew[i] = numbers.row[i].number[0];
-    }
-    p.cache = cache;
-    run(&p);
-    for (size_t i = 0; i < 6; i++)
-        assert_true(numbers.row[i].cached && numbers.row[i].number[0] == anew[i]);
-}
-
-/* ---- interruption ---- */
-
-static bool has_started(void *self)
-{
-    (void)self;
-    return access(path_of("slow.started"), F_OK) == 0;
-}
-
-static void take_progress(void *self, double fraction)
-{
-    double *last = self;
-    assert_true(fraction > *last && fraction <= 1);
-    *last = fraction;
-}
-
-TEST(test_interrupted)
-{
-    double last = 0;
-    const struct br_observer observer = {
-        .progress = take_progress, .stop = has_started, .self = &last};
-    char cache[128];
-    snprintf(cache, sizeof cache, "%s", path_of("cache-slow"));
-    write_script("slow", "[ $1 != 16 ] && echo err=$1 && exit\n"
-                         "echo $$ > $0.pid; touch $0.started; exec sleep 3600");
-    struct br_orders_request p = program(command_of("slow", "{n}"));
-    p.cache = cache;
-    p.observer = &observer;
-    refuse(&p, BR_INTERRUPTED, "interrupted");
-    assert_null(numbers.row);
-    expect_dead("slow.pid");
-    has_entries("tmp", 0);
-    has_entries(cache, 2);
-    static const double done[] = {4, 8};
-    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, done, 2};
-    p.observer = NULL;
-    run(&p);
-    assert_true(numbers.row[0].cached && numbers.row[1].cached);
-}
-
-/* A program and what it has started end with this process, whatever ends that. A folder that this
- * process could not remove is removed by the next study. */
-TEST(test_no_survivors)
-{
-    write_script("nest", "echo $$ > $0.$1\n"
-                         "sh -c 'sleep 3600 & echo $! > '$0.$1.a'; exec sleep 3600' &\n"
-                         "(sh -c 'echo $$ > '$0.$1.b'; exec sleep 3600' &)\n"
-                         "until [ -s $0.$1.a ] && [ -s $0.$1.b ]; do sleep 0.01; done\n"
-                         "echo err=1; [ $1 = 4 ] || exec sleep 3600");
-    static const double one[] = {4}, other[] = {8};
-    static const int deadly[] = {0, SIGKILL, SIGTERM, SIGHUP, SIGQUIT};
-    struct br_orders_request p = program(command_of("nest", "{n}"));
-    for (size_t i = 0; i < sizeof deadly / sizeof *deadly; i++) {
-        shell("rm -f nest.4* nest.8*");
-        p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, deadly[i] ? other : one, 1};
-        const pid_t child = fork();
-        assert_true(child >= 0);
-        if (child == 0) {
-            for (size_t j = 1; j < sizeof deadly / sizeof *deadly; j++)
-                if (deadly[j] != SIGKILL)
-                    signal(deadly[j], SIG_DFL); /* nohup and background jobs ignore some */
-            _exit(br_program_run(&p, &numbers, &err) || numbers.row[0].failure);
-        }
-        if (deadly[i]) {
-            shell("until [ -s nest.8.a ] && [ -s nest.8.b ]; do sleep 0.01; done");
-            kill(child, deadly[i]);
-        }
-        int status;
-        assert_int_equal(waitpid(child, &status, 0), child);
-        assert_int_equal(deadly[i] ? WTERMSIG(status) : status, deadly[i]);
-        for (const char *const *end = (const char *const[]){"", ".a", ".b", NULL}; *end; end++) {
-            char name[32];
-            snprintf(name, sizeof name, "nest.%d%s", deadly[i] ? 8 : 4, *end);
-            expect_dead(name);
-        }
-        has_entries("tmp", deadly[i] != 0);
-        br_run_folders_clean();
-        has_entries("tmp", deadly[i] != 0); /* it is too new */
-        shell("touch -c -d '5 minutes ago' tmp/*");
-        br_run_folders_clean();
-        has_entries("tmp", 0);
-    }
-}
-
-/* A program has the usual signals, also where this process ignores them. */
-TEST(test_usual_signals)
-{
-    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ};
-    static const double one[] = {4};
-    void (*old[5])(int);
-    unsigned long long ignored = ~0ull;
-    write_script("usual",
-                 "sed -n 's/^SigIgn:[^0-9a-f]*//p' /proc/self/status > $0.ignored; echo err=1");
-    struct br_orders_request p = program(command_of("usual", "{n}"));
-    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
-    for (int i = 0; i < 5; i++)
-        old[i] = signal(usual[i], SIG_IGN);
-    br_numbers_clear(&numbers);
-    const enum br_status status = br_program_run(&p, &numbers, &err);
-    for (int i = 0; i < 5; i++)
-        signal(usual[i], old[i]);
-    MUST(status);
-    FILE *file = fopen(path_of("usual.ignored"), "r");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%llx", &ignored), 1);
-    fclose(file);
-    for (int i = 0; i < 5; i++)
-        assert_int_equal(ignored >> (usual[i] - 1) & 1, 0);
-}
-
-/* What a program has started is asked to end, too, before it is killed. */
-TEST(test_group_is_asked)
-{
-    write_script("asked", "[ $1 != 16 ] || until [ -e $0.mark ]; do sleep 0.02; done\n"
-                          "[ $1 != 16 ] || { echo err=1; exit; }\n"
-                          "sh -c 'trap \"echo asked > $0.child; exit\" TERM\n"
-                          "touch $0.mark; while :; do sleep 0.1; done' $0 &\n"
-                          "trap : TERM; until [ -e $0.mark ]; do sleep 0.1; done; wait; wait");
-    static const double two_sizes[] = {4, 16};
-    struct br_orders_request p = program(command_of("asked", "{n}"));
-    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, two_sizes, 2};
-    p.jobs = 2;
-    run_limited(&p, 3, "asked.mark asked.child");
-    assert_non_null(strstr(numbers.row[0].failure, "it did not end within "));
-    assert_null(numbers.row[1].failure);
-    shell("test -e asked.child");
-}
-
-/* ---- what is left ---- */
-
-static char warned[5000];
-
-static void take_warning(void *self, const char *what)
-{
-    (void)self;
-    snprintf(warned, sizeof warned, "%s", what);
-}
-
-/* A folder that a program has moved or hidden below a path that is too long. */
-TEST(test_folders_that_stay)
-{
-    static const char *const scripts[] = {
-        "mv \"$PWD\" $0.moved; echo err=1",
-        "for i in $(seq 30); do mkdir $(printf %0200d 0); cd $(printf %0200d 0); done; echo err=1"};
-    static const double one[] = {4};
-    const struct br_observer observer = {.warn = take_warning};
-    for (int i = 0; i < 2; i++) {
-        write_script("stay", scripts[i]);
-        struct br_orders_request p = program(command_of("stay", "{n}"));
-        p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
-        p.observer = &observer;
-        *warned = '\0';
-        br_numbers_clear(&numbers);
-        MUST(br_program_run(&p, &numbers, &err));
-        assert_null(numbers.row[0].failure);
-        const char *path = strchr(warned, '/');
-        assert_non_null(strstr(warned, "the folder of a run could not be removed, and is left: "));
-        assert_true(strncmp(path, path_of(i ? "tmp/beamrate-run-" : "stay.moved"),
-                            strlen(path_of(i ? "tmp/beamrate-run-" : "stay.moved"))) == 0);
-        assert_int_equal(access(path, F_OK), 0);
-        shell("rm -rf stay.moved tmp/*");
-    }
-}
-
-/* This stands before the C library's own function: programs of another user cannot be killed. */
-static bool is_of_another;
-
-int kill(pid_t id, int number)
-{
-    int (*own)(pid_t, int);
-    *(void **)&own = dlsym(RTLD_NEXT, "kill");
-    if (!is_of_another || own(id, 0) != 0)
-        return own(id, number);
-    errno = EPERM;
-    return -1;
-}
-
-TEST(test_another_user)
-{
-    static const double one[] = {4};
-    const struct br_observer observer = {.warn = take_warning};
-    write_script("other", "exec sleep 3600");
-    struct br_orders_request p = program(command_of("other", "{n}"));
-    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
-    p.observer = &observer;
-    p.seconds = 0.5;
-    is_of_another = true;
-    run(&p);
-    is_of_another = false;
-    assert_non_null(
-        strstr(numbers.row[0].failure, "it did not end within 0.5 s, and cannot be killed;"));
-    const char *group = strstr(warned, "process group ");
-    int id = 0;
-    assert_non_null(group);
-    assert_int_equal(sscanf(group, "process group %d is left", &id), 1);
-    kill(id, SIGKILL);
-    assert_int_equal(waitpid(id, NULL, 0), id);
-}
-
-/* Libraries (OpenBLAS) have handlers of fork that wait for each other's locks. */
-static int foreign_handlers;
-
-static void count_handler(void)
-{
-    foreign_handlers++;
-}
-
-TEST(test_no_foreign_handlers)
-{
-    assert_int_equal(pthread_atfork(count_handler, count_handler, count_handler), 0);
-    const struct br_orders_request p = on_grid(2);
-    run(&p);
-    assert_int_equal(foreign_handlers, 0);
-    const pid_t child = fork(); /* they are there */
-    if (child == 0)
-        _exit(foreign_handlers != 2);
-    int status;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_int_equal(status, 0);
-}
-
-/* ---- a program that changes ---- */
-
-/* A row is of the program with which the study began, or it has no number, and is not kept. */
-TEST(test_changes)
-{
-    static const char *const forms[] = {"%s {n}", "/bin/sh %s {n}",
-                                        "/usr/bin/env A=1 B=2 SCRIPT=%s sh -c '. $SCRIPT' x {n}"};
-    static const char *const ways[] = {"echo '#' >> %s", "cp -p %1$s new && mv new %1$s", "rm %s"};
-    char command[256], cache[128], text[512], way[256];
-    for (size_t i = 0; i < 9; i++) {
-        const char *path = path_of("changes");
-        snprintf(command, sizeof command, forms[i / 3], path);
-        snprintf(way, sizeof way, ways[i % 3], path);
-        snprintf(text, sizeof text, "echo run >> %s.runs; [ $1 = 8 ] && %s; echo err=$1; exit",
-                 path, way);
-        write_script("changes", text);
-        snprintf(cache, sizeof cache, "%s", path_of("cache-changes"));
-        struct br_orders_request p = program(command);
-        p.cache = cache;
-        run(&p);
-        assert_true(numbers.row[0].number[0] == 4 && !numbers.row[0].failure);
-        for (size_t j = 1; j < 3; j++) {
-            const struct br_numbers_row *row = &numbers.row[j];
-            const char *why = i == 2 && j == 2 ? "changes' is no program"
-                                               : "or a file that the command names, changed during";
-            if (!row->failure || !strstr(row->failure, why))
-                fail_msg("%s: %s", command, row->failure);
-            assert_true(isnan(row->number[0]) && !row->cached);
-        }
-        has_entries(cache, 1);
-        shell("rm -r %s changes.runs", cache);
-    }
 }
 
 /* ---- memory ---- */
@@ -1079,21 +516,3 @@ TEST(test_without_memory)
     p.reading = &reading;
     br_test_without_memory(attempt, &p, 10);
 }
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) && mkdir(path_of("tmp"), 0777) == 0 &&
-                   setenv("TMPDIR", path_of("tmp"), 1) == 0
-               ? 0
-               : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    br_remove_folder(folder);
-    return 0;
-}
-
-AROUND_TESTS(make_folder, remove_folder)

@@ -14,8 +14,6 @@ static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGE
 /* Longer than any search takes that ends by itself, s. */
 enum { PATIENCE = 600 };
 
-static struct br_error err;
-
 TEST(test_readings)
 {
     enum { REGEX = BR_READING_REGEX, JSON = BR_READING_JSON, CSV = BR_READING_CSV };

@@ -59,7 +59,7 @@ static const struct {
 TEST(test_poles)
 {
     for (size_t i = 0; i < sizeof poles / sizeof *poles; i++) {
-        struct br_function f = br_test_function(poles[i].text);
+        OWNED(br_function) f = br_test_function(poles[i].text);
         struct br_interval value;
         struct br_box where;
         if (br_prove_bounded(&f, unit, &value, &where) == BR_FINITE)
@@ -67,7 +67,6 @@ TEST(test_poles)
         const double tolerance = strpbrk(poles[i].text, "s<") ? 0.26 : 1e-12;
         CLOSE(where.x.low, poles[i].at, tolerance);
         AT_MOST(where.x.high - where.x.low, 1e-15);
-        br_function_free(&f);
     }
 }
 
@@ -117,7 +116,7 @@ static const struct {
 TEST(test_finite)
 {
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
-        struct br_function f = br_test_function(sound[i].text);
+        OWNED(br_function) f = br_test_function(sound[i].text);
         const double low = sound[i].low, high = sound[i].high, room = 0.06 * (high - low);
         struct br_interval value, tight;
         struct br_box where, peak;
@@ -130,7 +129,6 @@ TEST(test_finite)
             fail_msg("%s: %g .. %g", sound[i].text, tight.low, tight.high);
         if (!(tight.low <= low && tight.high >= high && value.low <= low && value.high >= high))
             fail_msg("%s: %.17g .. %.17g", sound[i].text, tight.low, tight.high);
-        br_function_free(&f);
     }
 }
 
@@ -140,7 +138,6 @@ TEST(test_unbounded)
     struct br_function f = br_test_function("1/(x^2 - 2*x*t + t^2 + 1e-9)");
     struct br_interval value;
     struct br_box where;
-    struct br_error err;
     assert_int_equal(br_prove_bounded(&f, unit, &value, &where), BR_UNBOUNDED);
     br_function_free(&f);
     static const struct br_function_ops none = {0};
@@ -155,14 +152,14 @@ TEST(test_unbounded)
 }
 
 /* A rod of 1 m with that load in line 8. */
-static enum br_status read_load(const char *load, struct br_scene *scene, struct br_error *err)
+static enum br_status read_load(const char *load, struct br_scene *scene, struct br_error *why)
 {
     char text[1024];
     snprintf(text, sizeof text,
              "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n"
              "  stiffness: 1 N\n  viscosity: 1 N s\n  load: %s\n",
              load);
-    return br_scene_read(br_test_scene_file(text), scene, err);
+    return br_scene_read(br_test_scene_file(text), scene, why);
 }
 
 /* A scene with one is refused, with the place. */
@@ -185,11 +182,9 @@ TEST(test_scene)
          "found nan at x = 0 m alone; if it has a limit there, write it as in x == 0 ? 1"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_scene scene;
-        struct br_error err = {0};
+        OWNED(br_scene) scene;
         REFUSED(read_load(rows[i].load, &scene, &err), BR_BAD_INPUT, rows[i].message);
         assert_non_null(strstr(err.message, ".yaml:8"));
-        br_scene_clear(&scene);
     }
 }
 
@@ -201,14 +196,12 @@ TEST(test_bend_at_zero)
                                        "min(0, x/%.9f - 0.61)*sin(x)", "1e9*abs(t*%.9f - 0.2)^2"};
     struct br_test_random random = {3};
     for (size_t i = 0; i < 100; i++) {
-        struct br_scene scene = {0};
-        struct br_error err = {0};
+        OWNED(br_scene) scene = {0};
         char formula[100], load[120];
         /* NOLINTNEXTLINE: the formats are those above */
         snprintf(formula, sizeof formula, bent[i % 4], br_test_uniform(&random, 0.8, 1.6));
         snprintf(load, sizeof load, "%s [N/m]", formula);
         MUST(read_load(load, &scene, &err));
-        br_scene_clear(&scene);
     }
 }
 
@@ -241,9 +234,8 @@ static const struct {
 TEST(test_breaks)
 {
     for (size_t i = 0; i < sizeof broken / sizeof *broken; i++) {
-        struct br_function f = br_test_function(broken[i].text);
+        OWNED(br_function) f = br_test_function(broken[i].text);
         struct br_breaks b = {0};
-        struct br_error err;
         MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
         if (b.count != broken[i].count)
             fail_msg("%s: %zu breaks", broken[i].text, b.count);
@@ -252,7 +244,6 @@ TEST(test_breaks)
             AT_MOST(b.at[k].high - b.at[k].low, 4e-15);
         }
         br_breaks_free(&b);
-        br_function_free(&f);
     }
 }
 
@@ -261,7 +252,6 @@ TEST(test_many_breaks)
 {
     struct br_function f = br_test_function("step(sin(1000*pi*t))");
     struct br_breaks b = {0};
-    struct br_error err;
     MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
     assert_int_equal(b.count, 999);
     for (size_t k = 0; k < b.count; k++) {
@@ -289,9 +279,8 @@ TEST(test_fronts)
         {"x < 2 + t ? 1 : 0", 0, {0, 0}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_function f = br_test_function(rows[i].text);
+        OWNED(br_function) f = br_test_function(rows[i].text);
         struct br_breaks b = {0};
-        struct br_error err;
         MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
         assert_int_equal(b.count, 0);
         assert_int_equal(b.moving, i != 3);
@@ -300,7 +289,6 @@ TEST(test_fronts)
         for (size_t k = 0; k < b.count; k++)
             CLOSE(b.at[k].low, rows[i].at[k], 1e-15);
         br_breaks_free(&b);
-        br_function_free(&f);
     }
 }
 
@@ -349,10 +337,9 @@ static double worst_in(const struct br_function *f, double from, double to)
 /* The mesh of a function of t: covers [0, 1], and its smooth cells are within the tolerance. */
 static size_t check_mesh(const char *text, double tolerance)
 {
-    struct br_function f = br_test_function(text);
+    OWNED(br_function) f = br_test_function(text);
     const struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = tolerance};
     struct br_mesh m;
-    struct br_error err;
     MUST(br_resolve(&f, BR_T, unit, &aim, &m, &err));
     assert_true(m.at[0] == 0 && m.at[m.count] == 1);
     double missed = 0;
@@ -366,7 +353,6 @@ static size_t check_mesh(const char *text, double tolerance)
     AT_MOST(missed, 1e-2 + tolerance); /* rough ones are few and narrow */
     const size_t count = m.count;
     br_mesh_free(&m);
-    br_function_free(&f);
     return count;
 }
 
@@ -405,7 +391,6 @@ TEST(test_both)
     const struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-8};
     struct br_function f = br_test_function("sin(3*x)*cos(7*t)*exp(-x*t)");
     struct br_mesh m;
-    struct br_error err;
     MUST(br_resolve(&f, BR_T, unit, &aim, &m, &err));
     AT_MOST((double)m.count, 32);
     br_mesh_free(&m);

@@ -25,8 +25,7 @@ static void check_reference(const struct br_reference *reference_kind, const cha
 {
     enum { N = 3, LEVELS = 8 };
     static const size_t mesh = N;
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled(name);
+    OWNED(br_scene) scene = br_test_bundled(name);
     double values[2][3 * N], square[2][BR_MEASURES];
     struct br_view view[2];
     for (int degree = 1; degree <= 2; degree++) {
@@ -59,7 +58,6 @@ static void check_reference(const struct br_reference *reference_kind, const cha
     for (size_t e = 0; e < N; e++) /* of the strain rate, the last one looked at */
         CLOSE(values[1][2 * e], values[0][e], 1e-12 * fabs(values[0][e]));
     AT_MOST(view[1].rest, 0.9 * view[0].rest);
-    br_scene_clear(&scene);
 }
 
 TEST(test_references)
@@ -73,13 +71,13 @@ TEST(test_references)
 TEST(test_look)
 {
     enum { N = 5 };
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     scene.length = 2;
     scene.bending.modelled = false;
     scene.axial.displacement = br_test_function("sin(3*x)");
     scene.axial.velocity = br_test_function("x*exp(-x)");
     const struct br_method method = method_of(NULL);
-    struct br_march *march = br_test_march(&scene, N, 10, &method);
+    OWNED(br_march) *march = br_test_march(&scene, N, 10, &method);
     br_test_advance(march, 4);
     double nodal[2][2 * (N + 1)];
     br_march_get(march, BR_AXIAL, nodal[0], nodal[1]);
@@ -109,8 +107,6 @@ TEST(test_look)
         }
         CLOSE(sum, expected, 1e-13 * expected);
     }
-    br_march_free(march);
-    br_scene_clear(&scene);
 }
 
 /* ---- refusals, and what is kept ---- */
@@ -118,14 +114,12 @@ TEST(test_look)
 TEST(test_other_degree)
 {
     static const size_t n = 4, steps = 10;
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_study s = br_test_study(&scene, &br_reference_fine, 1, &n, 1, &steps);
     s.method = method_of(NULL);
     s.reference = (struct br_resolution){8, 20};
     REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT,
             "the cells have axial elements of degree 2 and the reference of degree 1");
-    br_scene_clear(&scene);
 }
 
 /* One element, every reference and norm: the smallest arrays. */
@@ -136,8 +130,7 @@ TEST(test_one_element)
     assert_int_equal(br_measure_size(elements, BR_DISPLACEMENT, 9), 27);
     assert_int_equal(br_measure_size(elements, BR_STRAIN_RATE, 1), 2);
     static const size_t n = 1, steps = 4;
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_study chain[3];
     chain[0] = br_test_study(&scene, &br_reference_fine, 1, &n, 1, &steps);
     chain[0].method = chain[0].reference_method = method_of(NULL);
@@ -151,5 +144,4 @@ TEST(test_one_element)
         assert_true(chain[i].cell[0].error[BR_PART_AXIAL] > 0);
         br_study_clear(&chain[i]);
     }
-    br_scene_clear(&scene);
 }

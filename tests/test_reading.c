@@ -324,9 +324,9 @@ TEST(test_tables)
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
         const char *wanted = tables[i].fields;
         char found[1100] = "";
-        struct br_fields fields;
+        OWNED(br_fields) fields;
         struct br_error why = {0};
-        char *text = strdup(tables[i].text); /* its end is the end of the memory */
+        FREED char *text = strdup(tables[i].text); /* its end is the end of the memory */
         assert_non_null(text);
         if (br_fields_read(text, "t", NULL, &fields, &why))
             snprintf(found, sizeof found, ":%s", why.message);
@@ -334,8 +334,6 @@ TEST(test_tables)
             add_rows(found, sizeof found, &fields);
         if (*wanted == ':' ? strncmp(found, wanted, strlen(wanted)) : strcmp(found, wanted))
             fail_msg("of:\n%s\nfound:\n%s\nexpected:\n%s", tables[i].text, found, wanted);
-        br_fields_clear(&fields);
-        free(text);
     }
 }
 
@@ -454,8 +452,7 @@ TEST(test_boxes)
     for (size_t i = 0; i < sizeof bars / sizeof *bars; i++) {
         const char *const b = bars[i];
         char text[200];
-        struct br_fields f;
-        struct br_error err;
+        OWNED(br_fields) f;
         snprintf(text, sizeof text, "%sn%se%s\n\u2550\u2550\u2500\n%s10%s1%s\n%s20%s.2%s\n", b, b,
                  b, b, b, b, b, b, b);
         MUST(br_fields_read(text, "t", NULL, &f, &err));
@@ -464,7 +461,6 @@ TEST(test_boxes)
         assert_string_equal(f.heading[0], "n");
         assert_string_equal(f.field[3], ".2");
         assert_int_equal(f.lefts, 0);
-        br_fields_clear(&f);
     }
 }
 
@@ -496,16 +492,13 @@ static const char *table_of(int rows, int columns)
 
 static void refuse(const char *text, const char *why)
 {
-    struct br_fields fields;
-    struct br_error err = {0};
+    OWNED(br_fields) fields;
     REFUSED(br_fields_read(text, "t", NULL, &fields, &err), BR_BAD_INPUT, why);
-    br_fields_clear(&fields);
 }
 
 TEST(test_large_tables)
 {
     struct br_fields fields;
-    struct br_error err = {0};
     MUST(br_fields_read(table_of(10000, 4), "t", NULL, &fields, &err));
     assert_int_equal(fields.rows, 10000);
     assert_string_equal(fields.field[39999], "10003");
@@ -538,18 +531,15 @@ static bool always(__attribute__((unused)) void *self)
 
 TEST(test_interrupted)
 {
-    struct br_fields fields;
-    struct br_error err = {0};
+    OWNED(br_fields) fields;
     const struct br_observer observer = {.stop = always};
     assert_int_equal(br_fields_read("h,e\n1,2\n", "t", &observer, &fields, &err), BR_INTERRUPTED);
-    br_fields_clear(&fields);
 }
 
 static enum br_status whole(const void *text, struct br_error *why)
 {
-    struct br_fields fields;
+    OWNED(br_fields) fields;
     const enum br_status status = br_fields_read(text, "t", NULL, &fields, why);
-    br_fields_clear(&fields);
     return status;
 }
 

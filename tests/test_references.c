@@ -46,11 +46,10 @@ static void run_fine(const struct meeting *m, const struct br_scene *scene,
     double tip[2][2];
     for (size_t half = 0; half < 2; half++) {
         const size_t steps = m->steps << (3 + half);
-        struct br_march *march = br_test_march(scene, 64, steps, &method);
+        OWNED(br_march) *march = br_test_march(scene, 64, steps, &method);
         br_test_advance(march, steps);
         for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             tip[half][kind] = br_march_tip_displacement(march, kind);
-        br_march_free(march);
     }
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         verdict[kind] = (struct verdict){tip[1][kind], 2 * fabs(tip[1][kind] - tip[0][kind])};
@@ -73,7 +72,7 @@ TEST(test_agreement)
         const struct meeting *m = &meetings[i];
         if (m->steps > 16000 && !br_test_long())
             continue; /* these two have four fifths of all steps */
-        struct br_scene scene = br_test_bundled(m->scene);
+        OWNED(br_scene) scene = br_test_bundled(m->scene);
         const bool modelled[2] = {scene.axial.modelled, scene.bending.modelled};
         struct verdict fine[2], exact[2];
         run_fine(m, &scene, fine);
@@ -86,7 +85,6 @@ TEST(test_agreement)
             check_agreement(m, names[kind], "exact and fine", exact[kind], fine[kind]);
             AT_MOST(fine[kind].bar, 0.01); /* bars that say nothing agree with everything */
         }
-        br_scene_clear(&scene);
     }
 }
 
@@ -98,7 +96,6 @@ static void run_by(const struct br_reference *reference_kind, const struct br_sc
                    struct br_study s[NORMS])
 {
     static const size_t n[] = {7, 12}, steps[] = {40, 100};
-    struct br_error err = {0};
     s[0] = br_test_study(scene, reference_kind, 2, n, 2, steps);
     br_test_all_norms(s);
     MUST(br_study_run(s, 1, 2, NULL, &err));
@@ -112,7 +109,7 @@ TEST(test_manufactured)
     static const char *const scenes[] = {"mms_smooth", "mms_pressed", "mms_slip", "mms_closing"};
     const size_t all = sizeof scenes / sizeof *scenes;
     for (size_t i = 0; i < (br_test_long() ? all : all - 1); i++) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[i]);
         struct br_study by_exact[NORMS], by_mms[NORMS];
         run_by(&br_reference_exact, &scene, by_exact);
         run_by(&br_reference_mms, &scene, by_mms);
@@ -129,6 +126,5 @@ TEST(test_manufactured)
             br_study_clear(&by_exact[m]);
             br_study_clear(&by_mms[m]);
         }
-        br_scene_clear(&scene);
     }
 }

@@ -35,14 +35,12 @@ static void write_script(const char *folder, const char *name, const char *text)
 
 static void check_missing(const char *folder)
 {
-    struct br_error err = {0};
     struct br_gnuplot g;
     bool missing = false;
-    char *path = strdup(getenv("PATH"));
+    FREED char *path = strdup(getenv("PATH"));
     setenv("PATH", "/dev/null", 1);
     REFUSED(br_gnuplot_start(&g, folder, "s0.gp", &missing, &err), BR_IO, "gnuplot");
     setenv("PATH", path, 1);
-    free(path);
     assert_true(missing);
 }
 
@@ -51,7 +49,6 @@ TEST(test_side_by_side)
 {
     enum { SCRIPTS = 4, BAD = 2 };
     struct br_gnuplot at_work[SCRIPTS];
-    struct br_error err = {0};
     char folder[64], script[64], path[256];
     bool missing = false;
     make_folder(folder);

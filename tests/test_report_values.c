@@ -32,8 +32,6 @@ static const struct br_provenance provenance = {.version = "1",
                                                 .scene_path = "p",
                                                 .scene_text = "t"};
 
-static struct br_error err;
-
 /* ---- check ---- */
 
 /* What it has of a field of its method over time. */
@@ -49,7 +47,7 @@ static const char *old_field(const struct br_old_check *old, enum br_method_key 
 /* That it is read as this check. */
 static void is_read(const char *text)
 {
-    struct br_old_check old;
+    OWNED(br_old_check) old;
     char found[1200];
     MUST(br_check_read_json(br_test_scene_file(text), &old, &err));
     assert_int_equal(old.count, 2);
@@ -69,7 +67,6 @@ static void is_read(const char *text)
              old_field(&old, BR_METHOD_TOLERANCE, tolerance), old.check[1].name);
     assert_string_equal(found, "made time l2 axial 1 2.25 3.5 2.75 0.375 0.75 7.5; 4.25 5.25 "
                                "adaptive banded 0.0625; refused");
-    br_old_check_clear(&old);
 }
 
 TEST(check_is_read)
@@ -140,7 +137,7 @@ static void print_values(FILE *out, struct br_document *d)
                                             "tables", "provenance",   "verdicts"};
     const struct br_document_table *t;
     size_t block = 0;
-    char *text = printed(&br_document_json, d);
+    FREED char *text = printed(&br_document_json, d);
     json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         json_object_del(root, elsewhere[i]);
@@ -150,27 +147,25 @@ static void print_values(FILE *out, struct br_document *d)
         MUST(br_document_print(out, &br_document_csv, d, t, &err));
     }
     json_decref(root);
-    free(text);
     br_document_clear(d);
 }
 
 static void print_study(FILE *out)
 {
-    struct br_made_report m;
+    OWNED(br_made_report) m;
     struct br_document d = {0};
     make(&m, true);
     br_report_study(&m.report, &d);
     print_text(out, &d);
     print_values(out, &d);
-    br_made_report_clear(&m);
 }
 
 /* Another method; and what is said where the last cell is sound, the printed errors agree, and the
  * exact reference is unstable. */
 static void print_other_study(FILE *out)
 {
-    struct br_made_report m;
-    struct br_document d = {0};
+    OWNED(br_made_report) m;
+    OWNED(br_document) d = {0};
     make(&m, true);
     m.study.method = br_test_method("umfpack", "implicit", "uzawa");
     m.study.method.axial_degree = 2;
@@ -183,15 +178,13 @@ static void print_other_study(FILE *out)
         m.report.printed[i] = 1.04 * m.cell[0][i].error[0];
     br_report_study(&m.report, &d);
     print_text(out, &d);
-    br_document_clear(&d);
-    br_made_report_clear(&m);
 }
 
 /* Only the total of a scene with one field; events. */
 static void print_study_of_one_field(FILE *out)
 {
-    struct br_made_report m;
-    struct br_document d = {0};
+    OWNED(br_made_report) m;
+    OWNED(br_document) d = {0};
     make(&m, false);
     m.scene.axial.modelled = false;
     free(m.report.printed);
@@ -199,9 +192,7 @@ static void print_study_of_one_field(FILE *out)
     m.study.events = (char[]){"first event\nsecond event"};
     br_report_study(&m.report, &d);
     print_text(out, &d);
-    br_document_clear(&d);
     m.study.events = NULL;
-    br_made_report_clear(&m);
 }
 
 /* ---- claims ---- */
@@ -334,20 +325,18 @@ static void print_check(FILE *out)
     before[0].element_steps = 2.5e9; /* 1.2 times as many now: a note */
     before[0].seconds = 5;           /* 2.4 times as many for a step: a warning, never serious */
     const struct br_old_check old = {.check = before, .count = 2};
-    struct br_comparison comparison;
+    OWNED(br_comparison) comparison;
     MUST(br_compare(checks, 3, true, &old, &comparison, &err));
     struct br_document d = {0};
     br_report_check(&(struct br_check_findings){checks, 3, 4.5, &comparison, &provenance}, &d);
     print_text(out, &d);
     const struct br_document_format *const formats[] = {&br_document_junit, &br_document_github};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        char *text = printed(formats[i], &d);
+        FREED char *text = printed(formats[i], &d);
         fprintf(out, "\n==== %s\n%s", formats[i]->name, text);
-        free(text);
     }
     fputs("\n==== csv, json\n", out);
     print_values(out, &d);
-    br_comparison_clear(&comparison);
 }
 
 /* ---- orders, with costs ---- */
@@ -364,8 +353,8 @@ static void print_orders(FILE *out)
                  k, (1 / n / n + k) * (1 + 1e-3 * (i * i % 7)), 3e-4 * n * k, 5 - 2 / n / n - k);
     }
     struct br_orders_request q = br_orders_request_default();
-    struct br_numbers numbers;
-    struct br_orders orders;
+    OWNED(br_numbers) numbers;
+    OWNED(br_orders) orders;
     struct br_estimate growth[BR_AXES];
     struct br_document d = {0};
     q.path = (char[]){"made"};
@@ -386,11 +375,8 @@ static void print_orders(FILE *out)
     br_report_orders(&orders, growth, "made", &d);
     print_text(out, &d);
     print_values(out, &d);
-    struct br_figure f = br_orders_draw(&orders, "made");
+    OWNED(br_figure) f = br_orders_draw(&orders, "made");
     br_figure_write_data(out, &f);
-    br_figure_clear(&f);
-    br_orders_clear(&orders);
-    br_numbers_clear(&numbers);
 }
 
 TEST(reports_are_as_stored)
@@ -411,8 +397,8 @@ TEST(paper_is_beside_the_cheapest)
         double error, seconds;
     } made[] = {{0, 9e-3, 3}, {0, 8e-4, 12}, {1, 7e-3, 1}, {1, 6e-4, 2}, {1, 5e-5, 5}};
     enum { MADE = sizeof made / sizeof *made };
-    struct br_scene scene = br_test_bundled("example2");
-    struct br_trade *t = calloc(1, sizeof *t);
+    OWNED(br_scene) scene = br_test_bundled("example2");
+    FREED struct br_trade *t = calloc(1, sizeof *t);
     struct br_trial trial[MADE];
     struct br_point point[MADE];
     assert_non_null(t);
@@ -436,14 +422,10 @@ TEST(paper_is_beside_the_cheapest)
         for (size_t c = 0; c < t->methods.count; c++)
             t->best_of[c][i] = br_work_cheapest(point, MADE, target, c, SIZE_MAX);
     }
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     br_report_trade(t, "example2", &provenance, &d);
-    char *text = printed(&br_document_json, &d);
+    FREED char *text = printed(&br_document_json, &d);
     assert_non_null(strstr(text, "method, euler, reaches 1e-03 in 12 CPU s, 6 times as much as"));
-    free(text);
-    br_document_clear(&d);
-    free(t);
-    br_scene_clear(&scene);
 }
 
 /* ---- run ---- */
@@ -498,18 +480,16 @@ static void report_run(const struct br_prediction *p, const struct br_warnings *
 static void print_certificate(FILE *out)
 {
     static const char *const keys[] = {"prediction", "energies", "certificate", "work", "seconds"};
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     const struct br_warnings none = {0};
     report_run(&made_prediction, &none, &d);
-    char *text = printed(&br_document_json, &d);
-    br_document_clear(&d);
+    FREED char *text = printed(&br_document_json, &d);
     json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         json_dumpf(json_object_get(root, keys[i]), out, JSON_INDENT(1));
         fputc('\n', out);
     }
     json_decref(root);
-    free(text);
 }
 
 TEST(certificate_is_printed)
@@ -548,8 +528,8 @@ TEST(growth_of_time_is_said)
     } cases[] = {
         {0.3, 3, "time grows like h^-0.3"}, {-0.3, 3, NULL}, {0.05, 3, NULL}, {0.3, 1.5, NULL}};
     struct br_orders_request q = br_orders_request_default();
-    struct br_numbers numbers;
-    struct br_orders orders;
+    OWNED(br_numbers) numbers;
+    OWNED(br_orders) orders;
     q.path = (char[]){"made"};
     q.table = (char[]){"h,l2\n1,1\n.5,.5\n.25,.25\n"};
     MUST(br_orders_read(&q, &numbers, &err));
@@ -557,19 +537,15 @@ TEST(growth_of_time_is_said)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const double g = cases[i].growth;
         const struct br_estimate growth[BR_AXES] = {{g, g - 0.01, g + 0.01}, {NAN, NAN, NAN}};
-        struct br_document d = {0};
+        OWNED(br_document) d = {0};
         for (size_t row = 0; row < 3; row++)
             numbers.row[row].seconds = row == 2 ? cases[i].longest : 1;
         br_report_orders(&orders, growth, "made", &d);
-        char *text = printed(&br_document_text, &d);
+        FREED char *text = printed(&br_document_text, &d);
         assert_true(!strstr(text, "Processor time") == !cases[i].said);
         assert_true(!cases[i].said || strstr(text, cases[i].said));
         assert_true(!strstr(text, "What each run costs") == !(cases[i].longest > 2));
-        free(text);
-        br_document_clear(&d);
     }
-    br_orders_clear(&orders);
-    br_numbers_clear(&numbers);
 }
 
 /* Of the printed errors one is by a ratio off; the others are ours. */
@@ -577,24 +553,21 @@ TEST(five_percent_is_a_difference)
 {
     static const double ratio[] = {0.94, 0.96, 1.04, 1.06};
     for (size_t i = 0; i < 4; i++) {
-        struct br_made_report m;
-        struct br_document d = {0};
+        OWNED(br_made_report) m;
+        OWNED(br_document) d = {0};
         make(&m, true);
         for (size_t c = 0; c < BR_MADE_CELLS; c++)
             m.report.printed[c] = m.cell[0][c].error[0] / (c == 5 ? ratio[i] : 1);
         br_report_study(&m.report, &d);
-        char *text = printed(&br_document_text, &d);
+        FREED char *text = printed(&br_document_text, &d);
         assert_non_null(strstr(text, i % 3 ? "agree within 5 % in all" : " 5 % in 1 of "));
-        free(text);
-        br_document_clear(&d);
-        br_made_report_clear(&m);
     }
 }
 
 /* People get the digits that the predicted error leaves, or the reason why it is not known. */
 TEST(answer_comes_first)
 {
-    struct br_document d = {0};
+    OWNED(br_document) d = {0};
     struct br_prediction p = made_prediction;
     const struct br_warnings none = {0};
     struct br_history_row *last = &report.end.last, cache = *last;
@@ -619,7 +592,6 @@ TEST(answer_comes_first)
                                  "u = -0.221612 m, w = 3.4567e-09 m, "));
     assert_non_null(strstr(text, "\nThe discretisation error is not known: it is so; "));
     free(text);
-    br_document_clear(&d);
     report.failure.status = BR_OK;
     *last = cache;
 }

@@ -141,7 +141,6 @@ static void compare_joint(const struct br_joint_fit *x, const struct br_joint_fi
 static void compare_fits(struct br_study *a, struct br_study *b, const struct factors *f)
 {
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        struct br_error err = {0};
         struct br_fits x, y;
         const double norm = norm_factor(a->norm, f);
         MUST(br_fit(a, part, &x, &err));
@@ -161,7 +160,6 @@ static void compare_fits(struct br_study *a, struct br_study *b, const struct fa
 static void run(const struct br_scene *scene, const struct br_reference *reference_kind,
                 struct br_study s[NORMS])
 {
-    struct br_error err = {0};
     s[0] = br_test_study(scene, reference_kind, MESHES, meshes, STEPS, steps);
     if (reference_kind == &br_reference_fine) {
         s[0].reference = (struct br_resolution){24, 160};
@@ -214,7 +212,6 @@ static void compare_studies(size_t reference_kind, const struct br_scene *now,
 /* What successive grids say without a reference. */
 static struct br_study differences_of(const struct br_scene *scene, enum br_axis axis)
 {
-    struct br_error err = {0};
     struct br_study over;
     const struct br_study grid = {
         .scene = scene,
@@ -243,7 +240,6 @@ static void compare_differences(const struct br_scene *now, const struct factors
 
 static struct br_scene in_units(const struct br_units_change *units)
 {
-    struct br_error err = {0};
     struct br_scene now;
     MUST(br_rescale(&before, units, &now, &err));
     return now;
@@ -263,7 +259,6 @@ static const struct march {
 
 static struct br_run_report watched(const struct br_scene *scene, const struct march *m)
 {
-    struct br_error err = {0};
     struct br_run_report report;
     struct br_method method = br_test_method(NULL, m->contact, NULL);
     method.scheme = br_time_scheme_find(m->scheme);
@@ -320,7 +315,6 @@ static void list_pure(const struct br_run_report *p, double list[PURE])
 static void compare_marches(const struct march *m, const struct br_units_change *units,
                             double tolerance)
 {
-    struct br_error err = {0};
     struct br_scene scene = m->scene ? br_test_bundled(m->scene) : made(1), now;
     MUST(br_rescale(&scene, units, &now, &err));
     const struct br_run_report a = watched(&scene, m), b = watched(&now, m);
@@ -355,29 +349,26 @@ TEST(test_certificates)
 /* Powers of two round nothing: a beam of 1024 m has the digits of one of 1 m. */
 TEST(test_powers_of_two)
 {
-    struct br_scene now = in_units(&(struct br_units_change){1024, 0.125, 32});
+    OWNED(br_scene) now = in_units(&(struct br_units_change){1024, 0.125, 32});
     const struct factors f = {1024, 0.125, 1, 1e-12};
     for (size_t j = 0; j < REFERENCES; j++)
         compare_studies(j, &now, &f);
-    br_scene_clear(&now);
 }
 
 TEST(test_other_units)
 {
-    struct br_scene now = in_units(&(struct br_units_change){0.001, 700, 11});
+    OWNED(br_scene) now = in_units(&(struct br_units_change){0.001, 700, 11});
     const struct factors f = {0.001, 700, 1, 1e-7};
     compare_studies(0, &now, &f);
     compare_differences(&now, &f);
-    br_scene_clear(&now);
 }
 
 TEST(test_upside_down)
 {
-    struct br_scene now = made(-1);
+    OWNED(br_scene) now = made(-1);
     const struct factors f = {1, 1, -1, 1e-12};
     compare_studies(1, &now, &f);
     compare_differences(&now, &f);
-    br_scene_clear(&now);
 }
 
 AROUND_TESTS(run_once, forget)

@@ -24,13 +24,11 @@ static double allocated(void)
 
 static double held(const struct br_scene *scene, const struct br_method *method, size_t n)
 {
-    struct br_error err = {0};
-    struct br_march *march;
+    OWNED(br_march) * march;
     const double before = allocated();
     MUST(br_march_create(&march, scene, n, 1000, method, &err));
     MUST(br_march_step(march, &err));
     const double bytes = allocated() - before;
-    br_march_free(march);
     return bytes;
 }
 
@@ -148,7 +146,6 @@ TEST(test_refused)
 {
     struct br_scene scene = br_test_bare();
     const struct br_method method = br_method_default();
-    struct br_error err;
     struct br_planned_march o = {.scene = &scene, .method = &method, .n = 1000, .steps = 10};
     MUST(br_fits_memory(&o, br_march_bytes(&o), &err));
     REFUSED(br_fits_memory(&o, 0.9 * br_march_bytes(&o), &err), BR_NO_MEMORY,

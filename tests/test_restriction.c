@@ -53,7 +53,6 @@ struct shape {
 
 static struct br_piecewise *project(const struct shape *s, struct br_store *store)
 {
-    struct br_error err = {0};
     struct br_piecewise *out = NULL;
     struct br_spectral_elements *spectral = br_store_take(store, 1, sizeof *spectral);
     assert_non_null(spectral);
@@ -116,14 +115,13 @@ static struct deviation deviation_of(const struct shape *s, const double *series
 
 static void check(const struct shape *shape, const double *series)
 {
-    struct br_store store = {0};
+    OWNED(br_store) store = {0};
     const size_t values = shape->mesh.elements * (shape->mesh.degree + 1);
     double *c = calloc(values, sizeof *c), rest = NAN;
     assert_non_null(c);
     for (size_t i = 0; i < values; i++)
         c[i] = NAN;
     br_piecewise_apply(project(shape, &store), series, c, &rest);
-    br_store_clear(&store);
     const struct deviation d = deviation_of(shape, series, c, rest);
     const double slack = br_test_slack();
     AT_MOST((double)(d.values / d.norm), 1e-15 * slack);
@@ -169,7 +167,7 @@ TEST(test_nothing_left)
     static double c[ELEMENTS * 4];
     for (size_t degree = 0; degree <= 3; degree++) {
         const struct shape shape = {LENGTH, {ELEMENTS, degree}, 1};
-        struct br_store store = {0};
+        OWNED(br_store) store = {0};
         struct br_piecewise *r = project(&shape, &store);
         double series[LENGTH] = {0}, rest = NAN;
         br_piecewise_apply(r, series, c, &rest);
@@ -186,7 +184,6 @@ TEST(test_nothing_left)
             br_piecewise_apply(r, bad, c, &rest);
             assert_true(isnan(rest) && isnan(c[0]));
         }
-        br_store_clear(&store);
     }
 }
 
@@ -294,7 +291,6 @@ static void check_stages(const struct br_radau *radau, const struct br_stage_sys
  * each instruction set gives the same bits. */
 TEST(test_stages)
 {
-    struct br_error err = {0};
     struct br_test_random random = {5};
     struct br_radau radau;
     double a[MODES], pivot[2 * S * MODES], r[S * MODES], y[S * MODES], portable[S * MODES];

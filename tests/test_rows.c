@@ -193,7 +193,7 @@ static void test_rows(void **state)
 static size_t read_tests(const char *path, struct test *test)
 {
     static char *row[MOST_ROW];
-    char *line = NULL;
+    FREED char *line = NULL;
     size_t room = 0, rows = 0, tests = 0;
     FILE *file = fopen(path, "r");
     if (!file)
@@ -207,7 +207,6 @@ static size_t read_tests(const char *path, struct test *test)
             test[tests - 1].rows++;
         row[rows] = strdup(line);
     }
-    free(line);
     fclose(file);
     return tests;
 }

@@ -24,7 +24,6 @@ static double energy_of(const struct br_field *f, enum br_element_matrix matrix,
 /* On L = 2: u = x, w = x^2 lie in the spaces, so their energies are exact. */
 TEST(test_energy_of_states)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.length = 2;
     scene.density = 3;
@@ -55,7 +54,6 @@ TEST(test_energy_of_states)
 static struct br_run_report run(const struct br_scene *scene, size_t n, size_t steps,
                                 const char *contact)
 {
-    struct br_error err = {0};
     struct br_run_report report;
     const struct br_run_request request = {
         .scene = scene,
@@ -72,9 +70,8 @@ static struct br_run_report run(const struct br_scene *scene, size_t n, size_t s
  */
 TEST(test_energy_that_says_nothing)
 {
-    struct br_error err = {0};
     struct br_run_report report;
-    struct br_scene s = br_test_bare();
+    OWNED(br_scene) s = br_test_bare();
     s.length = 7;
     s.duration = 2e4;
     s.density = 2000;
@@ -96,7 +93,6 @@ TEST(test_energy_that_says_nothing)
                             : report.energy_worst > br_energy_useless &&
                                   report.energy_limit == INFINITY);
     }
-    br_scene_clear(&s);
 }
 
 /* A cantilever that creeps to rest under q: q^2 L^5/(40 a) but for the elements' bubbles, which
@@ -105,7 +101,7 @@ TEST(test_energy_that_says_nothing)
 TEST(test_energy_at_rest)
 {
     const double q = 3, a = 2, exact = q * q / (40 * a) * (1 - pow(1.0 / 8, 4) / 36);
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     scene.duration = 60;
     scene.axial.modelled = false;
     scene.bending.stiffness = a;
@@ -116,7 +112,6 @@ TEST(test_energy_at_rest)
     CLOSE(p.work.loads[BR_BENDING], 2 * exact, 1e-10 * exact);
     CLOSE(p.work.viscous[BR_BENDING] + p.work.scheme[BR_BENDING], exact, 1e-10 * exact);
     AT_MOST(fabs(br_energy_imbalance(&p.energy_start, &p.energy_now, &p.work)), 1e-12);
-    br_scene_clear(&scene);
 }
 
 /* ---- events ---- */
@@ -185,11 +180,10 @@ TEST(test_events)
 static void check_rows_and_looks(int degree)
 {
     enum { N = 10 };
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("initial_data");
+    OWNED(br_scene) scene = br_test_bundled("initial_data");
     struct br_method method = br_method_default();
     method.axial_degree = degree;
-    struct br_history_record record = {0};
+    OWNED(br_history_record) record = {0};
     const struct br_history_observer recorder = br_history_recorder(&record, N);
     static const size_t level[] = {0, 7, 200};
     const struct br_history_request request = {
@@ -210,7 +204,7 @@ static void check_rows_and_looks(int degree)
     assert_int_equal(record.row[67].step, 200);
     assert_int_equal(end.last.step, 200);
     assert_int_equal(record.samples, 3);
-    struct br_march *again = br_test_march(&scene, N, 200, &method);
+    OWNED(br_march) *again = br_test_march(&scene, N, 200, &method);
     double y[2][2 * (N + 1)];
     for (size_t i = 0; i < 6; i++) {
         const enum br_field_kind kind = i % 2 ? BR_BENDING : BR_AXIAL;
@@ -226,9 +220,6 @@ static void check_rows_and_looks(int degree)
     assert_true(record.row[67].velocity[BR_BENDING] == br_march_tip(again)->velocity[BR_BENDING]);
     assert_true(isnan(record.row[0].friction_force));
     CLOSE(record.row[0].velocity[BR_AXIAL], -0.5, 1e-15);
-    br_march_free(again);
-    br_history_record_clear(&record);
-    br_scene_clear(&scene);
 }
 
 TEST(test_rows_and_looks)
@@ -253,20 +244,19 @@ struct stop_at {
 };
 
 static enum br_status full_disk(void *self, const struct br_march *march,
-                                const struct br_history_row *row, struct br_error *err)
+                                const struct br_history_row *row, struct br_error *why)
 {
     (void)march;
     struct stop_at *s = self;
     s->told = row->step;
-    return row->step == s->step ? br_fail(err, BR_IO, "the disk is full") : BR_OK;
+    return row->step == s->step ? br_fail(why, BR_IO, "the disk is full") : BR_OK;
 }
 
 /* An observer's failure is the run's; a march's is a result. */
 TEST(test_failures)
 {
-    struct br_error err = {0};
     struct br_run_report report;
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     scene.axial.load = br_test_load("sqrt(0.705 - t)");
     struct stop_at s = {.step = 5};
     struct br_history_observer observer = {.self = &s, .step = full_disk};
@@ -279,7 +269,7 @@ TEST(test_failures)
                                      .stride = 50};
     REFUSED(br_run(&request, &report, &err), BR_IO, "the disk is full");
     assert_int_equal(s.told, 5);
-    struct br_history_record record = {0};
+    OWNED(br_history_record) record = {0};
     observer = br_history_recorder(&record, 4);
     MUST(br_run(&request, &report, &err));
     assert_int_equal(report.failure.status, BR_NOT_FINITE);
@@ -290,8 +280,6 @@ TEST(test_failures)
     assert_int_equal(record.rows, 3); /* 0, 50, 70 */
     assert_int_equal(record.row[2].step, 70);
     assert_false(report.at_end);
-    br_history_record_clear(&record);
-    br_scene_clear(&scene);
 }
 
 /* ---- what is modelled ---- */
@@ -307,9 +295,8 @@ static const struct br_model_row *find(const struct br_run_report *p, const char
 
 TEST(test_model)
 {
-    struct br_error err = {0};
     struct br_run_report p;
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_run_request request = {
         .scene = &scene, .method = br_method_default(), .n = 4, .steps = 10};
     request.wanted = BR_WANT_BENDING;
@@ -346,5 +333,4 @@ TEST(test_model)
     request.wanted = BR_WANT_BENDING;
     MUST(br_run(&request, &p, &err));
     assert_string_equal(find(&p, "axial")->why, "not asked for by --fields");
-    br_scene_clear(&scene);
 }

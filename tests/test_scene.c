@@ -13,9 +13,9 @@
 #include "study/verify/verify.h"
 #include "support.h"
 
-static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
+static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *why)
 {
-    return br_scene_read(br_test_scene_file(text), scene, err);
+    return br_scene_read(br_test_scene_file(text), scene, why);
 }
 
 /* A good scene, which the tables below spoil in one place: lines 1 to 4, axial 5 to 8,
@@ -85,13 +85,11 @@ TEST(test_bent)
                                        "  displacement: 1e9*(x - 0.7)*step(x - 0.7) [m]\n",
                                        "  velocity: step(x - 0.4) [m/s]\n"};
     for (size_t i = 0; i < sizeof bent / sizeof *bent; i++) {
-        struct br_error err = {0};
-        struct br_scene scene;
+        OWNED(br_scene) scene;
         char text[400];
         snprintf(text, sizeof text, TOP "axial:\n  stiffness: 1 N\n  viscosity: 1 N s\n%s",
                  bent[i]);
         MUST(read_text(text, &scene, &err));
-        br_scene_clear(&scene);
     }
 }
 
@@ -99,7 +97,6 @@ TEST(test_bent)
 TEST(test_mangled)
 {
     char text[4096];
-    struct br_error err = {0};
     struct br_scene scene;
     spoilt(0, NULL, text, sizeof text);
     const size_t length = strlen(text);
@@ -107,6 +104,7 @@ TEST(test_mangled)
         char copy[4096];
         memcpy(copy, text, cut);
         copy[cut] = '\0';
+        err.status = BR_OK;
         if (read_text(copy, &scene, &err))
             assert_int_equal(err.status, BR_BAD_INPUT);
         br_scene_clear(&scene);
@@ -119,7 +117,6 @@ TEST(test_mangled)
 
 TEST(test_no_file)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     REFUSED(br_scene_read("/nowhere/at/all.yaml", &scene, &err), BR_BAD_INPUT, "/nowhere/at/all");
     br_scene_clear(&scene);
@@ -150,7 +147,7 @@ static const struct {
 
 static void check_paper(size_t i)
 {
-    struct br_scene s = br_test_bundled(paper[i].name);
+    OWNED(br_scene) s = br_test_bundled(paper[i].name);
     assert_string_equal(s.name, paper[i].name);
     assert_non_null(strstr(s.title, "Example "));
     assert_true(s.length == 1 && s.duration == paper[i].duration && s.density == 1e-4);
@@ -170,7 +167,6 @@ static void check_paper(size_t i)
                                            &s.bending.displacement, &s.bending.velocity};
     for (size_t f = 0; f < 4; f++)
         assert_true(br_function_is_zero(initial[f]));
-    br_scene_clear(&s);
 }
 
 TEST(test_bundled)
@@ -200,8 +196,7 @@ static const struct {
 TEST(test_loads)
 {
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
-        struct br_error err = {0};
-        struct br_scene s;
+        OWNED(br_scene) s;
         char text[4096], line[256];
         snprintf(line, sizeof line, "  load: %s", loads[i].load);
         spoilt(12, line, text, sizeof text);
@@ -212,14 +207,12 @@ TEST(test_loads)
         assert_true(load->term[0].time.uses_x == loads[i].time_x);
         assert_true(load->term[0].time.uses_t == loads[i].time_t_);
         CLOSE(br_load_value(load, 0.5, 2), loads[i].value, 1e-14);
-        br_scene_clear(&s);
     }
 }
 
 TEST(test_good_initial_data)
 {
-    struct br_error err = {0};
-    struct br_scene s;
+    OWNED(br_scene) s;
     char text[4096];
     spoilt(12,
            "  displacement: 1 - cos(3*x) [m]\n  displacement_slope: 3*sin(3*x) [1]\n"
@@ -233,15 +226,13 @@ TEST(test_good_initial_data)
     double value;
     br_function_evaluate(&s.bending.velocity_slope, 1, &x, 0, &value);
     CLOSE(value, (3 * x * x - x * x * x) * exp(-x), 1e-15);
-    br_scene_clear(&s);
 }
 
 /* tau omega/2 of the lowest mode: pi/2 of a rod, and of a cantilever the root of 1 + cos cosh. */
 TEST(test_damping_ratio)
 {
     const double root[] = {[BR_AXIAL] = M_PI_2, [BR_BENDING] = 1.8751040687119611664};
-    struct br_error err = {0};
-    struct br_scene s;
+    OWNED(br_scene) s;
     MUST(read_text("title: T\nlength: 30 cm\nduration: 1 s\nyoung: 70 GPa\n"
                    "mass_density: 2.7 g/cm^3\nsection: tube 20 mm x 1 mm\n"
                    "axial: {damping_ratio: 2 %}\nbending: {damping_ratio: 0.02}\n",
@@ -251,7 +242,6 @@ TEST(test_damping_ratio)
         const double omega = pow(root[kind] / s.length, 1 + kind) * sqrt(f->stiffness / s.density);
         CLOSE(f->viscosity / f->stiffness * omega / 2, 0.02, 1e-14);
     }
-    br_scene_clear(&s);
 }
 
 /* Every number of a scene built by hand, as a NaN, an infinity and a negative one. */
@@ -272,7 +262,6 @@ TEST(test_check)
                                    &s.contact.stiffness,
                                    &s.friction.coefficient,
                                    &s.friction.regularisation};
-        struct br_error err = {0};
         MUST(br_scene_check(&s, &err));
         for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
             const double value = *numbers[i];
@@ -303,13 +292,12 @@ static char *stated(struct br_scene *scene)
 /* A scene with `set` is that of the file which says the same, and so is the text that it leaves. */
 static void try_set(const char *text, const char *set, const char *same)
 {
-    struct br_error err = {0};
     struct br_scene scene;
     char title[400], *left = NULL;
     const struct br_scene_asked asked = {.set = set, .text = &left};
     MUST(br_scene_parse("file.yaml", same, &(struct br_scene_asked){0}, &scene, &err));
     snprintf(title, sizeof title, "%s, with ", scene.title);
-    char *expected = stated(&scene);
+    FREED char *expected = stated(&scene);
     MUST(br_scene_parse("file.yaml", text, &asked, &scene, &err));
     assert_true(strncmp(scene.title, title, strlen(title)) == 0);
     assert_true(strncmp(scene.title + strlen(title), set, strcspn(set, "\n")) == 0);
@@ -322,7 +310,6 @@ static void try_set(const char *text, const char *set, const char *same)
     found = stated(&scene);
     assert_string_equal(found, expected);
     free(found);
-    free(expected);
     free(left);
 }
 
@@ -446,23 +433,20 @@ TEST(test_sets_refused)
     char text[4096];
     spoilt(0, NULL, text, sizeof text);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
-        struct br_scene scene;
+        OWNED(br_scene) scene;
         char *left = NULL;
         const struct br_scene_asked asked = {.set = rows[i].set, .text = &left};
         REFUSED(br_scene_parse("file.yaml", text, &asked, &scene, &err), BR_BAD_INPUT,
                 rows[i].says);
         assert_null(left);
-        br_scene_clear(&scene);
     }
 }
 
 /* What is expected is set, too; it has no line in the file then. */
 TEST(test_set_expectations)
 {
-    struct br_error err = {0};
-    struct br_scene scene;
-    struct br_verify verify;
+    OWNED(br_scene) scene;
+    OWNED(br_verify) verify;
     MUST(br_verify_read("file.yaml",
                         TOP "axial: {stiffness: 3 N, viscosity: 1 N s, load: 'x*t [N/m]'}\n"
                             "verify:\n  space:\n    n: 10, 20, 40, 80, 160\n    k: 0.1 s\n"
@@ -476,6 +460,4 @@ TEST(test_set_expectations)
     assert_int_equal(space->expectations, 1);
     assert_true(space->expectation[0].band.tolerance == 0.2);
     assert_int_equal(space->expectation[0].band.line, 0);
-    br_verify_clear(&verify);
-    br_scene_clear(&scene);
 }

@@ -32,11 +32,10 @@ static struct br_method method_of(const struct br_time_scheme *scheme, double to
 static void run(const struct br_scene *scene, const struct br_method *method, size_t steps,
                 struct state *end)
 {
-    struct br_march *march = br_test_march(scene, N, steps, method);
+    OWNED(br_march) *march = br_test_march(scene, N, steps, method);
     br_test_advance(march, steps);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         br_march_get(march, kind, end->value[kind], NULL);
-    br_march_free(march);
 }
 
 /* In L2, by the mass of each element. */
@@ -169,7 +168,7 @@ enum { SWITCHING = sizeof switching / sizeof *switching };
  * are found. Of impacts the first errors say nothing, since waves are not resolved. */
 static void check_across(const struct br_time_scheme *scheme, size_t which)
 {
-    struct br_scene scene = br_test_bundled(switching[which].scene);
+    OWNED(br_scene) scene = br_test_bundled(switching[which].scene);
     struct state best, end;
     double error[2];
     struct br_method method = method_of(br_time_scheme_find("adaptive"), 1e-12);
@@ -183,7 +182,6 @@ static void check_across(const struct br_time_scheme *scheme, size_t which)
     if (!(order >= 0.8))
         fail_msg("%s, %s: order %.2f, expected at least 0.8", scheme->name, switching[which].scene,
                  order);
-    br_scene_clear(&scene);
 }
 
 TEST(test_orders_across_switches)
@@ -198,7 +196,7 @@ TEST(test_adaptive_errors)
 {
     for (size_t i = 0; br_time_schemes[i]; i++)
         for (size_t s = 0; s < SWITCHING && br_time_schemes[i]->adaptive; s++) {
-            struct br_scene scene = br_test_bundled(switching[s].scene);
+            OWNED(br_scene) scene = br_test_bundled(switching[s].scene);
             struct state best, end;
             struct br_method method = method_of(br_time_schemes[i], 1e-12);
             run(&scene, &method, 10, &best);
@@ -209,7 +207,6 @@ TEST(test_adaptive_errors)
                     distance(switching[s].kind, &end, &best) / size_of(switching[s].kind, &best);
                 AT_MOST(error, 200 * tolerance);
             }
-            br_scene_clear(&scene);
         }
 }
 
@@ -217,7 +214,6 @@ TEST(test_adaptive_errors)
 
 static void advance_field(struct br_march *march, enum br_field_kind kind, size_t count)
 {
-    struct br_error err = {0};
     for (size_t i = 0; i < count; i++)
         MUST(br_march_step_field(march, kind, &err));
 }
@@ -225,7 +221,6 @@ static void advance_field(struct br_march *march, enum br_field_kind kind, size_
 /* The axial field ahead by up to four steps, in turns of different length. */
 static void march_one_by_one(struct br_march *march, size_t steps)
 {
-    struct br_error err = {0};
     MUST(br_march_allow_lead(march, 4, &err));
     size_t axial = 0, bending = 0;
     for (size_t turn = 1; bending < steps; turn = turn % 4 + 1) {
@@ -243,11 +238,11 @@ TEST(test_fields_one_by_one)
     enum { STEPS = 150 };
     for (size_t i = 0; br_time_schemes[i]; i++)
         for (int solver = 0; solver < 2 && !br_time_schemes[i]->adaptive; solver++) {
-            struct br_scene scene = br_test_bundled("chatter");
+            OWNED(br_scene) scene = br_test_bundled("chatter");
             struct br_method method = br_test_method(solver ? "plain" : NULL, "implicit", "exact");
             method.scheme = br_time_schemes[i];
-            struct br_march *together = br_test_march(&scene, N, STEPS, &method);
-            struct br_march *single = br_test_march(&scene, N, STEPS, &method);
+            OWNED(br_march) *together = br_test_march(&scene, N, STEPS, &method);
+            OWNED(br_march) *single = br_test_march(&scene, N, STEPS, &method);
             br_test_advance(together, STEPS);
             march_one_by_one(single, STEPS);
             for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -256,9 +251,6 @@ TEST(test_fields_one_by_one)
                 br_march_get(single, kind, b[0], b[1]);
                 assert_memory_equal(a, b, sizeof a);
             }
-            br_march_free(together);
-            br_march_free(single);
-            br_scene_clear(&scene);
         }
 }
 
@@ -267,21 +259,19 @@ static void study_by(const struct br_scene *scene, const struct br_method *metho
                      double error[4])
 {
     static const size_t meshes[] = {4, 8}, steps[] = {50, 100};
-    struct br_error err = {0};
-    struct br_study s = br_test_study(scene, &br_reference_fine, 2, meshes, 2, steps);
+    OWNED(br_study) s = br_test_study(scene, &br_reference_fine, 2, meshes, 2, steps);
     s.method = *method;
     s.reference = (struct br_resolution){16, 200};
     s.reference_method = *method;
     MUST(br_study_run(&s, 1, threads, NULL, &err));
     for (int i = 0; i < 4; i++)
         error[i] = s.cell[i].error[BR_PART_TOTAL];
-    br_study_clear(&s);
 }
 
 TEST(test_threads)
 {
     for (size_t i = 0; br_time_schemes[i]; i++) {
-        struct br_scene scene = br_test_bundled("chatter");
+        OWNED(br_scene) scene = br_test_bundled("chatter");
         const struct br_method method = method_of(br_time_schemes[i], 1e-5);
         double one[4], some[4];
         study_by(&scene, &method, 1, one);
@@ -290,6 +280,5 @@ TEST(test_threads)
             assert_memory_equal(one, some, sizeof one);
         }
         assert_true(one[0] > 0 && isfinite(one[3]));
-        br_scene_clear(&scene);
     }
 }

@@ -13,7 +13,6 @@
 static struct br_split split_of(const struct br_scene *scene, size_t n, size_t steps,
                                 struct br_method method)
 {
-    struct br_error err = {0};
     struct br_split split = {
         .scene = scene,
         .method = method,
@@ -75,20 +74,19 @@ TEST(test_sums)
 {
     static const char *const scenes[] = {"example1", "example2", "reversal"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        struct br_scene scene = br_test_bundled(scenes[i]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[i]);
         const char *friction = scene.friction.regularisation > 0 ? "regularised" : NULL;
         struct br_split split = split_of(&scene, 20, 50, br_test_method("umfpack", NULL, friction));
         check_sums(&split);
         split = split_of(&scene, 20, 50, br_test_method(NULL, "implicit", NULL));
         check_sums(&split);
-        br_scene_clear(&scene);
     }
 }
 
 /* The parts against marches that this test makes itself. */
 TEST(test_links)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     scene.friction.regularisation = 1e-3;
     const struct br_method given = br_test_method("umfpack", "lagged", "regularised");
     const struct br_method riccati = br_test_method("riccati", "lagged", "regularised");
@@ -109,15 +107,13 @@ TEST(test_links)
     CLOSE(time->tip[BR_BENDING] + space->tip[BR_BENDING],
           end[3].w_tip - split.solution_tip[BR_BENDING], 1e-15);
     assert_true(split.tip[BR_BENDING] == end[0].w_tip);
-    br_scene_clear(&scene);
 }
 
 /* A part that needs no refined march has a floor of twice the difference of two solvers' marches of
  * the run: its own round-off may be as large as that, and so may that of the march beside it. */
 TEST(test_floor_of_two_marches)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     struct br_study study =
         br_test_study(&scene, &br_reference_fine, 1, &split.at.n, 1, &split.at.steps);
@@ -133,15 +129,13 @@ TEST(test_floor_of_two_marches)
         CLOSE(share_of(&split, "lag")->floor[0][part], 2 * distinct, 1e-9 * distinct);
     }
     br_study_clear(&study);
-    br_scene_clear(&scene);
 }
 
 /* The whole is what a study says of the run; what is at the round-off is below the floor, and what
  * is not is above it. */
 TEST(test_whole)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     for (size_t m = 0; m < split.norms; m++) {
         struct br_study study =
@@ -163,7 +157,6 @@ TEST(test_whole)
     assert_false(br_share_known(&share, 0, BR_PART_TOTAL));
     share.error[0][0] = 1e-15;
     assert_false(br_share_known(&share, 0, BR_PART_TOTAL));
-    br_scene_clear(&scene);
 }
 
 static void check_none(const struct br_split *split, const char *name, const char *why)
@@ -236,7 +229,7 @@ static void check_order(size_t row, double coarse, double fine)
 TEST(test_orders)
 {
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
-        struct br_scene scene = br_test_bundled(orders[i].scene);
+        OWNED(br_scene) scene = br_test_bundled(orders[i].scene);
         struct br_method method = br_test_method(NULL, orders[i].contact, orders[i].friction);
         struct br_split split[SIZES];
         method.scheme = br_time_scheme_find(orders[i].scheme);
@@ -258,14 +251,13 @@ TEST(test_orders)
                     check_order(i, fabs(share_of(&split[j - 1], "time")->tip[kind]),
                                 fabs(share_of(&split[j], "time")->tip[kind]));
         }
-        br_scene_clear(&scene);
     }
 }
 
 /* A tip that sticks creeps by what an iteration leaves: the less, the smaller its tolerance. */
 TEST(test_iteration)
 {
-    struct br_scene scene = br_test_bundled("example1");
+    OWNED(br_scene) scene = br_test_bundled("example1");
     for (const struct br_friction_rule *const *r = br_friction_rules; *r; r++) {
         double last = INFINITY;
         for (double tolerance = 1e-6; (*r)->iterates && tolerance > 1e-9; tolerance /= 100) {
@@ -280,12 +272,10 @@ TEST(test_iteration)
             last = share->error[0][BR_PART_BENDING];
         }
     }
-    br_scene_clear(&scene);
 }
 
 TEST(test_refused)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example1");
     struct br_split split = {
         .scene = &scene,

@@ -16,10 +16,10 @@ static const size_t few_n[] = {10}, few_steps[] = {10, 40, 120};
 
 /* A run of a scene on 10 elements by methods, separated by commas; clear it. */
 static enum br_status run(struct br_stability *s, const struct br_scene *scene, const char *methods,
-                          struct br_error *err)
+                          struct br_error *why)
 {
     struct br_named_methods named;
-    assert_int_equal(br_named_methods_read(methods, &named, err), BR_OK);
+    assert_int_equal(br_named_methods_read(methods, &named, why), BR_OK);
     const struct br_extremes_job job = {.scene = &scene,
                                         .scenes = 1,
                                         .n = few_n,
@@ -27,15 +27,14 @@ static enum br_status run(struct br_stability *s, const struct br_scene *scene, 
                                         .steps = few_steps,
                                         .step_count = 3,
                                         .methods = &named};
-    return br_stability_run(s, &job, err);
+    return br_stability_run(s, &job, why);
 }
 
 /* No march breaks: but those that bdf3 refuses. */
 static void check_sound(const char *name, const char *methods)
 {
-    struct br_scene scene = br_test_bundled(name);
-    struct br_error err = {0};
-    struct br_stability s;
+    OWNED(br_scene) scene = br_test_bundled(name);
+    OWNED(br_stability) s;
     MUST(run(&s, &scene, methods, &err));
     for (size_t i = 0; i < s.planes; i++) {
         const bool refusing = strcmp(s.plane[i].by->name, "bdf3") == 0;
@@ -44,8 +43,6 @@ static void check_sound(const char *name, const char *methods)
             fail_msg("%s by %s breaks", name, s.plane[i].by->name);
     }
     MUST(br_stability_verdict(&s, &err));
-    br_stability_clear(&s);
-    br_scene_clear(&scene);
 }
 
 /* Each scene with its own loads, which put energy in and take it out; with c_H up to 1e4 times its
@@ -54,7 +51,6 @@ TEST(test_schemes_without_a_limit)
 {
     char **name;
     size_t count;
-    struct br_error err = {0};
     MUST(br_scene_list(&name, &count, &err));
     assert_true(count >= 33);
     for (size_t i = 0; i < count; i += br_test_quick() ? 8 : 1) {
@@ -74,10 +70,9 @@ TEST(test_lagged_contact)
 {
     char **name;
     size_t count, limits = 0, near = 0;
-    struct br_error err = {0};
     MUST(br_scene_list(&name, &count, &err));
     for (size_t i = 0; i < count; i++) {
-        struct br_scene scene = br_test_bundled(name[i]);
+        OWNED(br_scene) scene = br_test_bundled(name[i]);
         struct br_stability s;
         MUST(run(&s, &scene, "euler+lagged", &err));
         MUST(br_stability_verdict(&s, &err));
@@ -93,7 +88,6 @@ TEST(test_lagged_contact)
             near += ratio > 0.8 && ratio < 1.25;
         }
         br_stability_clear(&s);
-        br_scene_clear(&scene);
     }
     assert_true(limits >= 25 && near >= limits / 2);
     br_scene_list_free(name, count);
@@ -103,11 +97,10 @@ TEST(test_lagged_contact)
 TEST(test_limit_of_columns)
 {
     static const size_t n[] = {10, 20};
-    struct br_scene scene = br_test_bundled("impact");
+    OWNED(br_scene) scene = br_test_bundled("impact");
     const struct br_scene *one = &scene;
     struct br_named_methods named;
-    struct br_error err = {0};
-    struct br_stability s;
+    OWNED(br_stability) s;
     size_t below = 0;
     MUST(br_named_methods_read("euler+lagged,euler+lagged+p2", &named, &err));
     MUST(br_stability_run(&s,
@@ -133,8 +126,6 @@ TEST(test_limit_of_columns)
             }
         }
     assert_true(below > 20);
-    br_stability_clear(&s);
-    br_scene_clear(&scene);
 }
 
 /* By hand: a rod of one element, with a mass of 3 kg and a/L = 1 N/m, has a tip of 1 kg that
@@ -156,14 +147,12 @@ TEST(test_limits_by_hand)
     scene.bending.modelled = false;
     scene.contact = (struct br_contact){.modelled = true, .gap = 1};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
-        struct br_stability s;
+        OWNED(br_stability) s;
         scene.contact.stiffness = rows[i].stiffness;
         MUST(br_stability_run(&s, &job, &err));
         const double found = s.plane[0].column[0].predicted;
         if (!(found == rows[i].limit || fabs(found - rows[i].limit) <= rows[i].tolerance))
             fail_msg("row %zu: %.9g s, by hand %g s", i, found, rows[i].limit);
-        br_stability_clear(&s);
     }
 }
 
@@ -173,11 +162,10 @@ TEST(test_limits_by_hand)
 TEST(test_broken_by)
 {
     static const size_t n = 10, steps[] = {101, 10};
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     const struct br_scene *one = &scene;
     struct br_named_methods named;
-    struct br_stability s;
+    OWNED(br_stability) s;
     MUST(br_named_methods_read("bdf3", &named, &err));
     scene.axial.stiffness = scene.length = scene.duration = scene.density = 1;
     scene.axial.viscosity = 0.01;
@@ -198,14 +186,12 @@ TEST(test_broken_by)
     assert_int_equal(c->by, BR_UNSTABLE);
     CLOSE(c->largest, 1.0 / 35, 1e-15);
     CLOSE(c->broken, 1.0 / 34, 1e-15);
-    br_stability_clear(&s);
     br_load_clear(&scene.axial.load);
 }
 
 /* The load puts in more and more energy; and a rod with no contact and no load has none. */
 TEST(test_growth_of_loads)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     struct br_stability s;
     scene.axial.load = br_test_load("exp(30*t)");
@@ -241,9 +227,8 @@ TEST(test_outcome)
  * the same steps, have put in; of linear and of quadratic elements. */
 TEST(test_share_of_two_marches)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("impact");
-    struct br_stability s;
+    OWNED(br_scene) scene = br_test_bundled("impact");
+    OWNED(br_stability) s;
     MUST(run(&s, &scene, "bdf2,bdf2+p2", &err));
     assert_int_equal(s.planes, 4);
     for (int degree = 1; degree <= 2; degree++) {
@@ -269,16 +254,13 @@ TEST(test_share_of_two_marches)
         CLOSE(point->share, br_energy_total(&r[0].energy_now) / put_in, 1e-12);
         assert_true(point->share > 0.01);
     }
-    br_stability_clear(&s);
-    br_scene_clear(&scene);
 }
 
 /* A verdict that sees a break where there is no limit, and steps of one column in order. */
 TEST(test_verdict)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("impact");
-    struct br_stability s;
+    OWNED(br_scene) scene = br_test_bundled("impact");
+    OWNED(br_stability) s;
     MUST(run(&s, &scene, "euler+lagged,euler+implicit,bdf3", &err));
     MUST(br_stability_verdict(&s, &err));
     const struct br_stability_column *lagged = &s.plane[0].column[0], *bdf3 = &s.plane[4].column[0];
@@ -291,8 +273,6 @@ TEST(test_verdict)
     point->outcome = BR_STABLE;
     s.plane[1].column[0].point[0].outcome = BR_UNSTABLE; /* c_H = 20 N/m: below a/L */
     REFUSED(br_stability_verdict(&s, &err), BR_VERDICT, "impact by euler+lagged is unstable");
-    br_stability_clear(&s);
-    br_scene_clear(&scene);
 }
 
 /* Verdicts by hand. A rod of a = 1 N, b = 0, L = 1 m on 4 elements gains nothing by a lagged
@@ -323,7 +303,6 @@ TEST(test_verdicts_by_hand)
     scene.axial.stiffness = scene.length = scene.duration = 1;
     for (size_t i = 0; i < ALL * sizeof rows / sizeof *rows; i++) {
         const size_t row = i / ALL, place = i % ALL;
-        struct br_error err = {0};
         size_t steps[ROWS] = {10, 10, 10};
         struct br_stability_point point[PLANES][COLUMNS * ROWS];
         struct br_stability_column column[PLANES][COLUMNS];
@@ -357,8 +336,7 @@ static bool stop_now(void *self)
 
 TEST(test_refusals)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("impact");
+    OWNED(br_scene) scene = br_test_bundled("impact");
     const struct br_scene *one = &scene;
     struct br_stability s;
     REFUSED(run(&s, &scene, "bdf2,bdf3,trbdf2,sdirk2", &err), BR_BAD_INPUT, "found 4 methods");
@@ -367,5 +345,4 @@ TEST(test_refusals)
         .scene = &one, .scenes = 1, .observer = &(struct br_observer){.stop = stop_now}};
     REFUSED(br_stability_run(&s, &job, &err), BR_INTERRUPTED, "interrupted");
     br_stability_clear(&s);
-    br_scene_clear(&scene);
 }

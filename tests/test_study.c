@@ -28,7 +28,7 @@ static struct br_study study_of(const struct br_scene *scene, struct br_resoluti
 
 TEST(test_arithmetic)
 {
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     scene.length = 2, scene.duration = 5;
     struct br_sample a = {.time = 1, .weight = 0.5}, b = {.time = 2, .weight = 0.25};
     a.size[BR_AXIAL][BR_DISPLACEMENT] = 3, a.size[BR_BENDING][BR_DISPLACEMENT] = 4;
@@ -51,7 +51,6 @@ TEST(test_arithmetic)
     CLOSE(br_norm_value(&br_norm_energy, &sum, BR_PART_AXIAL), sqrt(9 + 1.8), 1e-15);
     CLOSE(br_norm_value(&br_norm_energy, &sum, BR_PART_BENDING), sqrt(16 + 8.8), 1e-15);
     CLOSE(br_norm_value(&br_norm_energy, &sum, BR_PART_TOTAL), sqrt(25 + 10.6), 1e-15);
-    br_scene_clear(&scene);
 }
 
 static bool is_missing(double value)
@@ -80,7 +79,7 @@ TEST(test_constant)
 /* What is not a number is not lost, and what a norm does not need does not matter. */
 TEST(test_nan)
 {
-    struct br_scene scene = br_test_bare();
+    OWNED(br_scene) scene = br_test_bare();
     for (const struct br_norm *const *norm = br_norms; *norm; norm++)
         for (int measure = 0; measure < BR_MEASURES; measure++) {
             struct br_sample bad = {.time = 1, .weight = 1}, good = {.time = 2, .weight = 1};
@@ -99,7 +98,6 @@ TEST(test_nan)
             assert_false(is_missing(br_norm_of_constant(*norm, &scene, size, BR_PART_TOTAL)));
             scene.axial.modelled = true;
         }
-    br_scene_clear(&scene);
 }
 
 /* ---- the oracle ---- */
@@ -278,8 +276,7 @@ TEST(test_errors)
         {"example2", {0, 0}, 2, {4, 10}, 2, {8, 20}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bundled(rows[i].scene);
+        OWNED(br_scene) scene = br_test_bundled(rows[i].scene);
         struct br_study s[NORMS] = {study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
                                              rows[i].k_count, rows[i].steps)};
         s[0].reference_kind = rows[i].reference.n ? &br_reference_fine : &br_reference_exact;
@@ -289,7 +286,6 @@ TEST(test_errors)
             check_cell(s, c);
         for (size_t m = 0; m < NORMS; m++)
             br_study_clear(&s[m]);
-        br_scene_clear(&scene);
     }
 }
 
@@ -301,7 +297,6 @@ enum { KEPT = 1 + 9 * BR_PARTS };
 static void errors_on(int threads, double out[2][NORMS][KEPT])
 {
     static const size_t n[] = {4, 8, 16}, steps[] = {20, 25, 100};
-    struct br_error err = {0};
     struct br_scene scene[2] = {br_test_bundled("example1"), br_test_bundled("example4")};
     struct br_study s[2 * NORMS];
     const size_t stride = threads ? 2 : 1;
@@ -340,7 +335,6 @@ TEST(test_same_bits)
 
 TEST(test_steps_of)
 {
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     size_t steps;
     static const double good[] = {1, 0.5, 0.01, 0.001, 1e-5, 1.0 / 3, 1e-12};
@@ -384,10 +378,9 @@ TEST(test_nesting)
         {1, 1, 0, 1, "the list of k is empty", 60},
         {1, 1, 1, 1, "the reference needs", 0},
     };
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t good = 4;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
         /* one bad study of two fails the call, and nothing is left of the other, before or after */
         struct br_study s[2];
         s[i % 2] = study_of(&scene, (struct br_resolution){8, 8}, 1, &good, 1, &good);
@@ -396,7 +389,6 @@ TEST(test_nesting)
         REFUSED(br_study_run(s, 2, 1, NULL, &err), BR_BAD_INPUT, rows[i].text);
         assert_true(s[0].cell == NULL && s[1].cell == NULL);
     }
-    br_scene_clear(&scene);
 }
 
 /* ---- cells that fail, or are unstable ---- */
@@ -454,16 +446,17 @@ TEST(test_cells_that_fail)
         {"chatter", NULL, 0, NULL, NULL, {4, 2000}, 1, {4}, 1, {2000}, "."},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = rows[i].scene  ? br_test_bundled(rows[i].scene)
-                                : rows[i].load ? br_test_bare()
-                                               : pressed_rod();
+        OWNED(br_scene)
+        scene = rows[i].scene  ? br_test_bundled(rows[i].scene)
+                : rows[i].load ? br_test_bare()
+                               : pressed_rod();
         if (rows[i].load)
             scene.bending.load = br_test_load(rows[i].load);
         if (rows[i].stiffness > 0)
             scene.contact.stiffness = rows[i].stiffness;
-        struct br_study s = study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
-                                     rows[i].k_count, rows[i].steps);
+        OWNED(br_study)
+        s = study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n, rows[i].k_count,
+                     rows[i].steps);
         s.method = br_test_method(NULL, rows[i].contact, NULL);
         s.reference_method = br_test_method(NULL, rows[i].reference_contact, NULL);
         if (*rows[i].sign) {
@@ -475,8 +468,6 @@ TEST(test_cells_that_fail)
             REFUSED(br_study_run(&s, 1, 2, NULL, &err), BR_NOT_FINITE, "x = 0.125");
             assert_null(s.cell);
         }
-        br_study_clear(&s);
-        br_scene_clear(&scene);
     }
 }
 
@@ -486,14 +477,13 @@ TEST(test_reference_check)
     static const char *const names[] = {"example1", "example2", "example3", "example4"};
     const size_t n = 20, steps = 50;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bundled(names[i]);
-        struct br_study fine = study_of(&scene, (struct br_resolution){20, 50}, 1, &n, 1, &steps);
+        OWNED(br_scene) scene = br_test_bundled(names[i]);
+        OWNED(br_study) fine = study_of(&scene, (struct br_resolution){20, 50}, 1, &n, 1, &steps);
         fine.reference_check = &br_reference_exact;
         fine.norm = br_norms[i % 3];
         MUST(br_study_run(&fine, 1, 1, NULL, &err));
         assert_non_null(fine.reference_check); /* it did not give up */
-        struct br_study exact = study_of(&scene, (struct br_resolution){0}, 1, &n, 1, &steps);
+        OWNED(br_study) exact = study_of(&scene, (struct br_resolution){0}, 1, &n, 1, &steps);
         exact.reference_kind = &br_reference_exact;
         exact.norm = fine.norm;
         MUST(br_study_run(&exact, 1, 1, NULL, &err));
@@ -502,9 +492,6 @@ TEST(test_reference_check)
                   1e-9 * exact.cell[0].error[BR_PART_TOTAL]);
         CLOSE(fine.reference_scale, exact.reference_scale,
               (1 + 1e-9) * exact.cell[0].error[BR_PART_TOTAL]);
-        br_study_clear(&fine);
-        br_study_clear(&exact);
-        br_scene_clear(&scene);
     }
 }
 
@@ -531,12 +518,11 @@ static bool stops(void *self)
 
 TEST(test_observer)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t n = 4, steps = 500;
     const struct br_observer silent = {0};
     for (int threads = 1; threads <= 3; threads++)
         for (int after = 0; after < 456; after += 57) {
-            struct br_error err = {0};
             const bool ends = after >= 399;
             struct watcher w = {.stop_after = ends ? 1000000 : after};
             const struct br_observer observer = {.progress = progress, .stop = stops, .self = &w};
@@ -552,7 +538,6 @@ TEST(test_observer)
             MUST(br_study_run(&s, 1, threads, &silent, &err));
             br_study_clear(&s);
         }
-    br_scene_clear(&scene);
 }
 
 /* ---- differences of successive grids, against studies of single cells ---- */
@@ -570,11 +555,10 @@ static void make_grid(const struct br_scene *scene, struct br_study grid[NORMS])
 static void check_difference(const struct br_study *differences, size_t i, size_t j,
                              struct br_resolution finer)
 {
-    struct br_error err = {0};
     const struct br_cell *cell = br_study_cell(differences, i, j);
     assert_true(cell->at.n == meshes[i] && cell->at.steps == steps[j]);
     assert_true(cell->against.n == finer.n && cell->against.steps == finer.steps);
-    struct br_study s = *differences;
+    OWNED(br_study) s = *differences;
     s.reference_kind = &br_reference_fine;
     s.reference_method = s.method;
     s.reference = finer;
@@ -583,13 +567,11 @@ static void check_difference(const struct br_study *differences, size_t i, size_
     MUST(br_study_run(&s, 1, 1, NULL, &err));
     for (enum br_part part = 0; part < BR_PARTS; part++)
         assert_true(s.cell[0].error[part] == cell->error[part]);
-    br_study_clear(&s);
 }
 
 TEST(test_differences)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example4");
+    OWNED(br_scene) scene = br_test_bundled("example4");
     struct br_study grid[NORMS];
     make_grid(&scene, grid);
     struct br_study over[BR_AXES][NORMS];
@@ -610,12 +592,11 @@ TEST(test_differences)
         br_study_clear(h);
         br_study_clear(k);
     }
-    br_scene_clear(&scene);
 }
 
 TEST(test_refused_differences)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     static const size_t odd[] = {10, 15};
     static const struct {
         enum br_axis axis;
@@ -630,7 +611,6 @@ TEST(test_refused_differences)
         {BR_AXIS_TIME, 2, 2, meshes, odd, "the time levels of k = 0.1 s are not all among"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        struct br_error err = {0};
         struct br_study grid[NORMS];
         make_grid(&scene, grid);
         grid[0].n_count = bad[i].n_count, grid[0].n = bad[i].n;
@@ -639,5 +619,4 @@ TEST(test_refused_differences)
         REFUSED(br_differences_run(grid, bad[i].axis, out, 1, NULL, &err), BR_BAD_INPUT,
                 bad[i].message);
     }
-    br_scene_clear(&scene);
 }

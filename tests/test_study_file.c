@@ -6,8 +6,6 @@
 #include "checks.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 static const char *const full = "title: a study\n"
                                 "run: sh -c 'echo l2={n}'\n"
                                 "n: 10, 20, 40\n"
@@ -66,14 +64,13 @@ TEST(test_study_table)
     const char *path = br_test_scene_file("h,l2\n1,3\n.5,x\n.25,1\n");
     char text[4096], message[4200];
     struct br_orders_request r;
-    struct br_numbers numbers;
+    OWNED(br_numbers) numbers;
     snprintf(text, sizeof text, "table: %s\nerror: l2\n", path);
     MUST(br_orders_request_read("/usr/s.yaml", text, &r, &err));
     assert_string_equal(r.table_path, path);
     assert_true(r.table_is_outside);
     snprintf(message, sizeof message, "%s:3: l2: found 'x'", path); /* the table, not the study */
     REFUSED(br_orders_read(&r, &numbers, &err), BR_BAD_INPUT, message);
-    br_numbers_clear(&numbers);
     br_orders_request_clear(&r);
     snprintf(text, sizeof text, "%s", path);
     char *const slash = strrchr(text, '/');
@@ -89,11 +86,10 @@ TEST(test_study_table)
 
 static void refuse_study(char *row)
 {
-    struct br_orders_request r;
+    OWNED(br_orders_request) r;
     const char *message = br_test_part(row), *text = br_test_unescape(row);
     REFUSED(br_orders_request_read("s.yaml", text, &r, &err), BR_BAD_INPUT, message);
     assert_non_null(strstr(err.message, "s.yaml"));
-    br_orders_request_clear(&r);
 }
 
 TEST(test_refused_studies)
@@ -105,11 +101,10 @@ TEST(test_refused_studies)
 TEST(test_long_expectation)
 {
     char text[3000];
-    struct br_orders_request r;
+    OWNED(br_orders_request) r;
     snprintf(text, sizeof text, "run: a\nread: {a: b}\nverify:\n  a: 'h 2 +-%*s'\n", 995, "0.15");
     MUST(br_orders_request_read("s.yaml", text, &r, &err));
     CLOSE(r.expectation[0].band.tolerance, 0.15, 0);
-    br_orders_request_clear(&r);
 }
 
 TEST(test_is_study_file)
@@ -124,13 +119,12 @@ TEST(test_is_study_file)
 static void problem_of(const char *from, const char *to, char problem[40])
 {
     char text[2048];
-    struct br_orders_request r;
+    OWNED(br_orders_request) r;
     const char *at = strstr(full, from);
     assert_non_null(at);
     snprintf(text, sizeof text, "%.*s%s%s", (int)(at - full), full, to, at + strlen(from));
     MUST(br_orders_request_read("s.yaml", text, &r, &err));
     br_orders_problem(&r, problem);
-    br_orders_request_clear(&r);
 }
 
 TEST(test_problems)
@@ -166,14 +160,12 @@ TEST(test_problems)
 static void refuse_run(const char *readings, const char *lists, const char *message)
 {
     char text[1024];
-    struct br_orders_request r;
-    struct br_numbers numbers;
+    OWNED(br_orders_request) r;
+    OWNED(br_numbers) numbers;
     snprintf(text, sizeof text, "run: echo a={n} b=-{n}\nn: 1, 2, 4\nread:\n  %s\n%s", readings,
              lists);
     MUST(br_orders_request_read("s.yaml", text, &r, &err));
     REFUSED(br_orders_read(&r, &numbers, &err), BR_BAD_INPUT, message);
-    br_numbers_clear(&numbers);
-    br_orders_request_clear(&r);
 }
 
 TEST(test_readings)
@@ -188,9 +180,8 @@ TEST(test_readings)
 
 static enum br_status whole_study(const void *text, struct br_error *why)
 {
-    struct br_orders_request r;
+    OWNED(br_orders_request) r;
     const enum br_status status = br_orders_request_read("s.yaml", text, &r, why);
-    br_orders_request_clear(&r);
     return status;
 }
 

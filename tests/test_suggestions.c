@@ -171,13 +171,10 @@ static void try_place(say *answer_of, const char *frame, size_t least, bool all_
 
 static void say_scene(const char *frame, const char *word, char *answer, size_t size)
 {
-    struct br_scene scene;
-    struct br_error err = {0};
-    struct br_verify verify;
+    OWNED(br_scene) scene;
+    OWNED(br_verify) verify;
     assert_int_equal(br_verify_read("s.yaml", fill(frame, word), NULL, &scene, &verify, &err),
                      BR_BAD_INPUT);
-    br_scene_clear(&scene);
-    br_verify_clear(&verify);
     snprintf(answer, size, "%s", err.message);
 }
 
@@ -185,10 +182,8 @@ static void say_scene(const char *frame, const char *word, char *answer, size_t 
 static void say_set(const char *frame, const char *word, char *answer, size_t size)
 {
     const struct br_scene_asked asked = {.set = fill(frame, word)};
-    struct br_scene scene;
-    struct br_error err = {0};
+    OWNED(br_scene) scene;
     assert_int_equal(br_scene_parse("s.yaml", "title: T\n", &asked, &scene, &err), BR_BAD_INPUT);
-    br_scene_clear(&scene);
     snprintf(answer, size, "%s", err.message);
 }
 
@@ -237,7 +232,6 @@ TEST(keys_of_verify)
 static void say_expression(const char *frame, const char *word, char *answer, size_t size)
 {
     struct br_function f;
-    struct br_error err = {0};
     assert_int_equal(br_expression(fill(frame, *word == '%' ? "foreignname" : word), &f, &err),
                      BR_BAD_INPUT);
     snprintf(answer, size, "%s", err.message);
@@ -337,7 +331,6 @@ static const struct br_method_field *field;
 static void say_field(const char *frame, const char *word, char *answer, size_t size)
 {
     struct br_method m = br_method_default();
-    struct br_error err = {0};
     assert_int_equal(br_method_field_read(field, fill(frame, word), &m, &err), BR_BAD_INPUT);
     snprintf(answer, size, "%s", err.message);
 }
@@ -345,7 +338,6 @@ static void say_field(const char *frame, const char *word, char *answer, size_t 
 static void say_method(const char *frame, const char *word, char *answer, size_t size)
 {
     struct br_named_method m;
-    struct br_error err = {0};
     assert_int_equal(br_named_method_read(fill(frame, word), &m, &err), BR_BAD_INPUT);
     snprintf(answer, size, "%s", err.message);
 }
@@ -367,32 +359,26 @@ TEST(methods)
 
 static void say_study(const char *frame, const char *word, char *answer, size_t size)
 {
-    struct br_orders_request q;
-    struct br_error err = {0};
+    OWNED(br_orders_request) q;
     assert_int_equal(br_orders_request_read("s.yaml", fill(frame, word), &q, &err), BR_BAD_INPUT);
-    br_orders_request_clear(&q);
     snprintf(answer, size, "%s", err.message);
 }
 
 static void say_column(const char *frame, const char *word, char *answer, size_t size)
 {
-    char *columns = strdup(fill(frame, word));
+    FREED char *columns = strdup(fill(frame, word));
     struct br_orders_request q = br_orders_request_default();
-    struct br_numbers numbers;
-    struct br_error err = {0};
+    OWNED(br_numbers) numbers;
     q.path = (char *)"t.csv";
     q.table = (char *)"mesh_width,l2_error,pressure\n1,3,1\n.5,2,.5\n.25,1,.2\n";
     *(strchr(frame, '=') ? &q.columns : &q.errors) = columns;
     assert_int_equal(br_orders_read(&q, &numbers, &err), BR_BAD_INPUT);
-    br_numbers_clear(&numbers);
-    free(columns);
     snprintf(answer, size, "%s", err.message);
 }
 
 static void say_reading(const char *frame, const char *word, char *answer, size_t size)
 {
     const struct br_reading reading = {.name = (char *)"l2", .what = (char *)fill(frame, word)};
-    struct br_error err = {0};
     assert_int_equal(br_reading_check(&reading, &err), BR_BAD_INPUT);
     snprintf(answer, size, "%s", err.message);
 }

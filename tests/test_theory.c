@@ -171,8 +171,7 @@ static void expect(const struct br_scene *scene, enum br_verify_kind kind,
 static void measure(struct br_test_random *r, size_t number, struct tally tally[BR_VERIFY_KINDS])
 {
     static size_t n[BR_VERIFY_KINDS][CELLS], steps[BR_VERIFY_KINDS][CELLS];
-    struct br_error err = {0};
-    struct br_scene scene;
+    OWNED(br_scene) scene;
     struct br_verify verify = {0};
     char text[4000], name[64];
     draw_scene(r, text, sizeof text);
@@ -191,7 +190,7 @@ static void measure(struct br_test_random *r, size_t number, struct tally tally[
         expect(&scene, (enum br_verify_kind)kind, v);
     }
     snprintf(name, sizeof name, "%zu", number);
-    struct br_check check = {.path = "drawn.yaml", .name = name};
+    OWNED(br_check) check = {.path = "drawn.yaml", .name = name};
     MUST(br_check_run(&(struct br_scene_check){.scene = &scene, .verify = &verify, .check = &check},
                       1, 0, NULL, &err));
     if (check.failure.status)
@@ -219,8 +218,6 @@ static void measure(struct br_test_random *r, size_t number, struct tally tally[
     }
     if (getenv("BR_TEST_SHOW"))
         print_message("# %zu scene:\n%s", number, text);
-    br_check_clear(&check);
-    br_scene_clear(&scene);
 }
 
 TEST(test_random)
@@ -247,8 +244,7 @@ TEST(test_random)
 static double rate_in_k(const struct br_scene *scene, struct br_theory *theory)
 {
     static const size_t n[] = {4}, steps[] = {80, 160};
-    struct br_error err = {0};
-    struct br_study s = br_test_study(scene, &br_reference_fine, 1, n, 2, steps);
+    OWNED(br_study) s = br_test_study(scene, &br_reference_fine, 1, n, 2, steps);
     s.norm = &br_norm_energy; /* of velocities, where the start is seen */
     s.method = br_test_method(NULL, "implicit", NULL);
     s.method.scheme = br_time_scheme_find("sdirk2");
@@ -257,7 +253,6 @@ static double rate_in_k(const struct br_scene *scene, struct br_theory *theory)
     *theory = br_theory_of(&s, BR_PART_TOTAL, BR_AXIS_TIME);
     MUST(br_study_run(&s, 1, 1, NULL, &err));
     const double rate = log2(s.cell[0].error[0] / s.cell[1].error[0]);
-    br_study_clear(&s);
     return rate;
 }
 
@@ -267,14 +262,12 @@ TEST(test_breaks_between_elements)
     static const size_t n[] = {4, 8}, steps[] = {10};
     static const char *const loads[] = {"step(x - 0.25)", "step(x - 0.3)"};
     for (int inside = 0; inside < 2; inside++) {
-        struct br_scene scene = br_test_bare();
+        OWNED(br_scene) scene = br_test_bare();
         scene.bending.modelled = false;
         scene.axial.load = br_test_load(loads[inside]);
-        struct br_study s = br_test_study(&scene, &br_reference_fine, 2, n, 1, steps);
+        OWNED(br_study) s = br_test_study(&scene, &br_reference_fine, 2, n, 1, steps);
         const struct br_theory t = br_theory_of(&s, BR_PART_TOTAL, BR_AXIS_SPACE);
         assert_true(inside ? isnan(t.order) : t.order == 2);
-        br_study_clear(&s);
-        br_scene_clear(&scene);
     }
 }
 
@@ -297,8 +290,7 @@ TEST(test_sudden_forces)
     };
     for (size_t i = 0; i < STARTS * (sizeof rows / sizeof *rows); i++) {
         const size_t how = i % STARTS, row = i / STARTS;
-        struct br_error err = {0};
-        struct br_scene scene;
+        OWNED(br_scene) scene;
         struct br_theory theory;
         char text[500];
         snprintf(text, sizeof text, scene_of, rows[row].field, rows[row].stiffness,
@@ -313,6 +305,5 @@ TEST(test_sudden_forces)
             assert_true(how != SUDDEN || row < 2 || rate < 1.8);
         } else
             assert_true(theory.order == 2 && fabs(rate - 2) < 0.1);
-        br_scene_clear(&scene);
     }
 }

@@ -102,7 +102,6 @@ TEST(test_names)
         {"bdf2+lagged", "lagged"},
         {"bdf2,bdf2+implicit", "--methods: bdf2+implicit is given twice"},
     };
-    struct br_error err = {0};
     struct br_named_methods all;
     MUST(br_named_methods_read("euler,regularised+bdf2+umfpack+p2", &all, &err));
     assert_int_equal(all.count, 2);
@@ -124,7 +123,7 @@ TEST(test_default_named_methods)
 {
     const char *const scenes[] = {"example2", "example3"};
     for (size_t s = 0; s < 2; s++) {
-        struct br_scene scene = br_test_bundled(scenes[s]);
+        OWNED(br_scene) scene = br_test_bundled(scenes[s]);
         struct br_named_methods all;
         size_t schemes[32] = {0};
         br_named_methods_default(&scene, &all);
@@ -134,7 +133,6 @@ TEST(test_default_named_methods)
         for (size_t j = 0; br_time_schemes[j]; j++)
             assert_true(schemes[j] > 0);
         assert_int_equal(schemes[0], s == 0 ? 2 : 1); /* lagged and implicit, where it matters */
-        br_scene_clear(&scene);
     }
 }
 
@@ -143,8 +141,7 @@ TEST(test_default_named_methods)
 /* Errors are those of a study's cells, in each norm; counts are the march's. */
 TEST(test_errors_are_a_study_s)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_named_methods all;
     MUST(br_named_methods_read("euler+lagged,bdf2,bdf2+p2", &all, &err));
     struct br_trial trial[] = {
@@ -161,8 +158,9 @@ TEST(test_errors_are_a_study_s)
         request.norm = norm[m];
         MUST(br_trials_run(trial, COUNT, &request, &err));
         for (size_t i = 0; i < COUNT; i++) {
-            struct br_study study = br_test_study(&scene, &br_reference_exact, 1, &trial[i].at.n, 1,
-                                                  &trial[i].at.steps);
+            OWNED(br_study)
+            study = br_test_study(&scene, &br_reference_exact, 1, &trial[i].at.n, 1,
+                                  &trial[i].at.steps);
             study.norm = norm[m];
             study.method = br_trial_method(&trial[i]);
             MUST(br_study_run(&study, 1, 1, NULL, &err));
@@ -170,7 +168,6 @@ TEST(test_errors_are_a_study_s)
                 CLOSE(trial[i].error[part], study.cell[0].error[part],
                       1e-13 * study.cell[0].error[BR_PART_TOTAL]);
             CLOSE(trial[i].scale, study.reference_scale, 1e-12 * study.reference_scale);
-            br_study_clear(&study);
         }
     }
     for (size_t i = 0; i < COUNT; i++) {
@@ -180,7 +177,6 @@ TEST(test_errors_are_a_study_s)
         assert_int_equal(trial[i].cost.repeats, 1);
         AT_MOST(trial[i].own, 1e-9 * trial[i].scale);
     }
-    br_scene_clear(&scene);
 }
 
 /* Also where no number of levels has the levels of all trials on a mesh. */
@@ -188,8 +184,7 @@ TEST(test_steps_without_common_levels)
 {
     static const size_t steps[] = {947, 1259, 1687, 2251, 3001, 4001};
     enum { COUNT = sizeof steps / sizeof *steps };
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example3");
+    OWNED(br_scene) scene = br_test_bundled("example3");
     struct br_named_methods all;
     struct br_trial trial[COUNT], alone;
     MUST(br_named_methods_read("bdf2", &all, &err));
@@ -204,7 +199,6 @@ TEST(test_steps_without_common_levels)
         MUST(br_trials_run(&alone, 1, &request, &err));
         CLOSE(br_trial_relative(&trial[i]), br_trial_relative(&alone), 1e-15);
     }
-    br_scene_clear(&scene);
 }
 
 static bool stop_at_once(void *self)
@@ -216,8 +210,7 @@ static bool stop_at_once(void *self)
 /* What fails, or takes too long, stays in the list with its reason; an interruption ends all. */
 TEST(test_ends)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_named_methods all;
     MUST(br_named_methods_read("euler+regularised,euler,euler+implicit", &all, &err));
     scene.friction.regularisation = 0; /* so that the first has no mu */
@@ -241,7 +234,6 @@ TEST(test_ends)
     assert_true(br_trial_bound(&trial[2]) > 0);
     request.observer = &(const struct br_observer){.stop = stop_at_once};
     REFUSED(br_trials_run(trial, 3, &request, &err), BR_INTERRUPTED, "interrupted");
-    br_scene_clear(&scene);
 }
 
 /* ---- grids ---- */
@@ -249,7 +241,6 @@ TEST(test_ends)
 static struct br_trade *laid_out(const struct br_scene *scene, const char *methods,
                                  const struct br_trade_grid *grid)
 {
-    struct br_error err = {0};
     struct br_trade *t = calloc(1, sizeof *t);
     assert_non_null(t);
     MUST(br_named_methods_read(methods, &t->methods, &err));
@@ -267,7 +258,7 @@ static void drop(struct br_trade *t)
 /* The printed cells are the paper's method's, each once. */
 TEST(test_printed)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_printed_cell cells[] = {{100, 0.01, 1}, {200, 0.0005, 1}, {3200, 1e-4, 1}};
     const struct br_printed printed = {cells, 3};
     struct br_trade *t = laid_out(&scene, "euler+lagged,euler+implicit",
@@ -283,7 +274,6 @@ TEST(test_printed)
     }
     assert_int_equal(marked, 3);
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* More tolerances than steps; their trials have room. */
@@ -310,7 +300,7 @@ TEST(test_many_tolerances)
 /* Lists that are given are tried whole. */
 TEST(test_lists_are_tried)
 {
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     const size_t n[] = {100000}, steps[] = {10, 1000000};
     const double tolerance[] = {1e-3, 1e-5, 1e-7};
     struct br_trade *t = laid_out(&scene, "bdf2,adaptive",
@@ -330,7 +320,6 @@ TEST(test_lists_are_tried)
         &(struct br_trade_grid){.n = n, .tolerance = tolerance, .n_count = 1, .tolerances = 3});
     assert_int_equal(t->count, 3);
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* ---- what they take ---- */
@@ -341,8 +330,7 @@ TEST(test_forecast)
 {
     static const size_t n[] = {40, 160}, steps[] = {10, 100, 10000};
     static const double tolerance[] = {1e-2, 1e-4};
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trade *t = laid_out(&scene, "euler+implicit,bdf2+plain,adaptive",
                                   &(struct br_trade_grid){.n = n,
                                                           .steps = steps,
@@ -379,7 +367,6 @@ TEST(test_forecast)
         assert_true(isnan(br_trial_bound(&t->trial[i])) == left);
     }
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* The marches whose pace was asked for. */
@@ -396,10 +383,10 @@ enum br_status __real_br_march_pace(const struct br_planned_march *march, double
 enum br_status __wrap_br_march_pace(const struct br_planned_march *march, double *pace,
                                     struct br_error *err);
 enum br_status __wrap_br_march_pace(const struct br_planned_march *march, double *pace,
-                                    struct br_error *err)
+                                    struct br_error *why)
 {
     if (!counts_paces)
-        return __real_br_march_pace(march, pace, err);
+        return __real_br_march_pace(march, pace, why);
     assert_true(paces < MOST_PACES);
     paced[paces].n = march->n;
     paced[paces].steps = march->steps;
@@ -414,8 +401,7 @@ TEST(test_paces)
 {
     static const size_t n[] = {40, 160}, steps[] = {10, 1000};
     static const double tolerance[] = {1e-2, 1e-4};
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trade *t = laid_out(&scene, "euler+implicit,esdirk4+plain,adaptive,adaptive+plain",
                                   &(struct br_trade_grid){.n = n,
                                                           .steps = steps,
@@ -433,15 +419,13 @@ TEST(test_paces)
     for (size_t i = 0; i < 5; i++)
         assert_int_equal(paced[i].n, 160);
     drop(t);
-    br_scene_clear(&scene);
 }
 
 /* A reference's work is forecast with the first trial that needs it, and passes to the next one
  * when that trial is left out. */
 TEST(test_reference_is_forecast)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
+    OWNED(br_scene) scene = br_test_bundled("example2");
     struct br_trial trial[] = {{.named = &pair[0], .at = {10, 100000}},
                                {.named = &pair[1], .at = {10, 100000}}};
     struct br_trial_request request = br_trial_request_default(&scene);
@@ -455,7 +439,6 @@ TEST(test_reference_is_forecast)
     assert_int_equal(trial[0].end, BR_TRIAL_LEFT);
     CLOSE(trial[1].estimated, trial[0].estimated, 1e-12 * beside);
     CLOSE(forecast.seconds, trial[1].estimated, 1e-12 * forecast.seconds);
-    br_scene_clear(&scene);
 }
 
 static int make_pair(void **state)

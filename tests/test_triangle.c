@@ -62,7 +62,6 @@ struct made {
 static int make(void **state)
 {
     static struct made made;
-    struct br_error err = {0};
     made.scene = br_test_bundled("example2");
     made.study = br_test_study(&made.scene, &br_reference_exact, 3, n, 3, steps);
     MUST(br_study_run(&made.study, 1, 1, NULL, &err));
@@ -111,7 +110,6 @@ static void check_allowed(const struct br_triangle *t)
 
 static size_t contradictions(const struct br_study *s, const double *printed)
 {
-    struct br_error err = {0};
     struct br_triangle triangle[4];
     size_t count, found = 0;
     MUST(br_triangles(s, printed, 4, triangle, &count, 1, &err));
@@ -145,7 +143,6 @@ TEST(test_planted)
 TEST(test_cheapest)
 {
     const struct br_study *s = &((const struct made *)*fixture)->study;
-    struct br_error err = {0};
     struct br_triangle triangle;
     size_t count;
     double printed[CELLS];

@@ -126,7 +126,6 @@ struct answer {
 
 static bool solve(const struct br_scene *s, struct answer *a)
 {
-    struct br_error err = {0};
     *a = (struct answer){NULL, NULL};
     const struct br_exact_options options = {.tolerance = 1e-7, .acceptable = 1e-5};
     if (br_exact_create(&a->exact, s, &options, &err))
@@ -176,12 +175,12 @@ TEST(test_pairs)
         struct br_test_random random = {1000 + i};
         const struct way *w = &ways[i % WAYS];
         struct drawn d;
-        struct br_scene s = bare(&random, &d);
+        OWNED(br_scene) s = bare(&random, &d);
         if (w->displaced && s.contact.gap + d.tip * s.length < 0)
             d.tip = -d.tip;
         for (int kind = 0; kind < 2; kind++)
             put_products(&s, &d, kind, false);
-        struct br_scene other = second_way(&s, &d, w);
+        OWNED(br_scene) other = second_way(&s, &d, w);
         struct answer a, b;
         const bool one = solve(&s, &a), two = solve(&other, &b), both = one && two;
         refused += !both;
@@ -195,8 +194,6 @@ TEST(test_pairs)
         br_exact_state_free(b.state);
         br_exact_free(a.exact);
         br_exact_free(b.exact);
-        br_scene_clear(&s);
-        br_scene_clear(&other);
     }
     print_message("# %zu pairs, %zu refused, %zu with switches\n", pairs, refused, closed);
     assert_true(20 * refused <= pairs);
@@ -295,7 +292,6 @@ static void compare_functions(const char *title, struct br_scene *a, struct br_s
 TEST(test_files)
 {
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        struct br_error err = {0};
         struct br_scene a, b;
         MUST(br_scene_read_text("one.yaml", files[i].one, &a, &err));
         MUST(br_scene_read_text("other.yaml", files[i].other, &b, &err));

@@ -46,7 +46,6 @@ static void make_power(struct made *m, double order, size_t count)
 
 static void find_verdict(struct br_case *c)
 {
-    struct br_error err = {0};
     MUST(br_case_observe(c, BR_VERIFY_LEAST_POINTS, &err));
     br_case_decide(c);
 }

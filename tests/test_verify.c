@@ -35,16 +35,15 @@ static const char *with(const char *part)
 }
 
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
-                                struct br_error *err)
+                                struct br_error *why)
 {
-    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, err);
+    return br_verify_read("scene.yaml", with(part), NULL, scene, verify, why);
 }
 
 TEST(test_whole)
 {
-    struct br_scene scene;
-    struct br_verify v;
-    struct br_error err = {0};
+    OWNED(br_scene) scene;
+    OWNED(br_verify) v;
     MUST(read_part("verify:\n"
                    "  joint:\n"
                    "    n: 10, 20,40, 80\n"
@@ -101,8 +100,6 @@ TEST(test_whole)
     CLOSE(tip->band.ceiling, 2e-5, 0);
     size_t line;
     MUST(br_verify_check(&scene, &v, &line, &err));
-    br_verify_clear(&v);
-    br_scene_clear(&scene);
 }
 
 /* No bundled scene is taken for a study file of another program. */
@@ -110,7 +107,6 @@ TEST(test_scenes_are_no_study_files)
 {
     char **names, path[1200];
     size_t count = 0;
-    struct br_error err = {0};
     MUST(br_scene_list(&names, &count, &err));
     assert_true(count > 5);
     for (size_t i = 0; i < count; i++) {
@@ -127,9 +123,8 @@ TEST(test_scenes_are_no_study_files)
 /* A part that the scene does not model has no order. */
 TEST(test_default)
 {
-    struct br_scene scene;
-    struct br_verify v;
-    struct br_error err = {0};
+    OWNED(br_scene) scene;
+    OWNED(br_verify) v;
     size_t line;
     MUST(read_part("", &scene, &v, &err));
     assert_true(v.by_default);
@@ -141,8 +136,6 @@ TEST(test_default)
     }
     scene.axial.modelled = false;
     REFUSED(br_verify_check(&scene, &v, &line, &err), BR_BAD_INPUT, "the scene has no axial part");
-    br_verify_clear(&v);
-    br_scene_clear(&scene);
 }
 
 static void refuse(char *row)
@@ -160,10 +153,8 @@ TEST(test_refusals)
 TEST(test_ignored_by_others)
 {
     struct br_scene scene;
-    struct br_verify v;
-    struct br_error err = {0};
+    OWNED(br_verify) v;
     assert_int_equal(read_part("verify: 3\n", &scene, &v, &err), BR_BAD_INPUT);
-    br_verify_clear(&v);
     br_scene_clear(&scene);
     MUST(br_scene_read(br_test_scene_file(with("verify: 3\n")), &scene, &err));
     br_scene_clear(&scene);

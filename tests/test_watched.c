@@ -50,7 +50,6 @@ struct told {
 /* False: the method does not go with the scene. */
 static bool start(struct watched *w, size_t n, size_t steps, const struct told *told)
 {
-    struct br_error err = {0};
     struct told t = told ? *told : (struct told){0};
     const struct br_method *method = t.method ? t.method : &w->method;
     if (br_method_check(&w->method, &w->scene, &err))
@@ -72,7 +71,6 @@ static bool start(struct watched *w, size_t n, size_t steps, const struct told *
 /* Up to the end, or where the march ends by itself. */
 static void advance(struct watched *w, size_t steps)
 {
-    struct br_error err = {0};
     for (size_t step = 0; step < steps && !br_march_step(w->march, &err); step++) {
         const struct br_certificate c = br_step_checker_step(w->checker);
         const double over = br_energy_meter_step(w->meter) / w->energy_limit;
@@ -121,7 +119,6 @@ static void pass_scene(const char *name, const char *solver, int degree, size_t 
 
 TEST(test_bundled_scenes)
 {
-    struct br_error err = {0};
     char **names;
     size_t count;
     MUST(br_scene_list(&names, &count, &err));
@@ -309,12 +306,11 @@ TEST(test_watched_is_unwatched)
             w.method = method_of(br_time_schemes[i], solver ? "plain" : "riccati", &w.scene);
             assert_true(start(&w, N, 100, NULL));
             advance(&w, 100);
-            struct br_march *alone = br_test_march(&w.scene, N, 100, &w.method);
+            OWNED(br_march) *alone = br_test_march(&w.scene, N, 100, &w.method);
             br_test_advance(alone, 100);
             br_march_get(w.march, BR_BENDING, a[0], a[1]);
             br_march_get(alone, BR_BENDING, b[0], b[1]);
             assert_memory_equal(a, b, sizeof a);
-            br_march_free(alone);
             finish(&w);
         }
 }
@@ -510,7 +506,6 @@ static struct br_certificate worst_of(const struct br_method *method,
 {
     struct watched w = {.scene = br_test_bundled("chatter"), .method = *method};
     struct br_certificate worst = {0};
-    struct br_error err = {0};
     assert_true(start(&w, 10, 200, NULL));
     struct spoiler s = {w.march, w.march->watcher[0], spoil};
     w.march->watcher[0] = (struct br_march_watcher){&s, show, accept};
@@ -575,7 +570,6 @@ TEST(test_spoilt_stages)
 
 TEST(test_refusals)
 {
-    struct br_error err = {0};
     struct br_step_checker *checker;
     struct watched w = {.scene = br_test_bundled("release"), .method = br_method_default()};
     const struct br_time_scheme unknown = {.name = "unknown"};

@@ -31,7 +31,7 @@ static int write_set(const char *folder, char *names)
 {
     const char *command = strstr(names, "history.csv") ? "beamrate run" : "beamrate study";
     struct br_output output = {0};
-    struct br_error err = {0};
+    err.status = BR_OK;
     bool failed = br_output_open(&output, folder, &err) != BR_OK;
     for (char *name = strtok(names, " "); name && !failed; name = strtok(NULL, " ")) {
         FILE *file;
@@ -139,7 +139,6 @@ static char set_that_is_there(void)
 /* The first thing that the next command does. */
 static enum br_status open_folder(void)
 {
-    struct br_error err;
     char path[512];
     cli_path("set", path);
     struct br_output output = {0};
@@ -298,7 +297,6 @@ TEST(test_lock_of_a_removed_file)
 {
     char path[512], lock[600];
     struct br_output output = {0};
-    struct br_error err;
     clear_set();
     cli_path("set", path);
     snprintf(lock, sizeof lock, "%s/.beamrate-lock", path);
@@ -331,7 +329,7 @@ TEST(test_texts_without_memory)
     for (size_t i = 0, at = 0; i < 3; at += 60000 >> 3 * i++)
         memset(expected + at, "abc"[i], 60000 >> 3 * i);
     for (long n = 1; good < 5; n++) {
-        char *text = expected;
+        FREED char *text = expected;
         size_t size = 1;
         br_memory_fails_at(n);
         FILE *file = br_text_open(&text, &size);
@@ -348,7 +346,6 @@ TEST(test_texts_without_memory)
         }
         failures += !written;
         good = written ? good + 1 : 0;
-        free(text);
     }
     assert_true(failures >= 4);
 }

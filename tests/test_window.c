@@ -7,8 +7,6 @@
 #include "checks.h"
 #include "orders/request.h"
 
-static struct br_error err;
-
 static enum br_status read_window(const char *text, const char *values, double finest,
                                   const char *without, struct br_numbers *numbers)
 {
@@ -135,11 +133,10 @@ TEST(test_refused_windows)
 
 static enum br_status whole_window(const void *text, struct br_error *why)
 {
-    struct br_numbers numbers;
+    OWNED(br_numbers) numbers;
     const enum br_status status = read_window(text, NULL, 3, "8", &numbers);
     if (status)
         *why = err;
-    br_numbers_clear(&numbers);
     return status;
 }
 

@@ -78,7 +78,6 @@ static double run(const struct row *r, const struct br_scene *scene, const struc
 static double study(const struct row *r, const struct br_scene *scene, const struct br_method *m,
                     double *took)
 {
-    struct br_error err = {0};
     struct br_costs work = {0};
     struct br_study s = br_test_study(scene, br_reference_best(scene), count_of(r->n), r->n,
                                       count_of(r->steps), r->steps);
@@ -95,7 +94,6 @@ static double study(const struct row *r, const struct br_scene *scene, const str
 static double trade(const struct row *r, const struct br_scene *scene, double *took)
 {
     static const double tolerance[] = {1e-2, 1e-4, 1e-6};
-    struct br_error err = {0};
     static struct br_trade t;
     t = (struct br_trade){.request = br_trial_request_default(scene)};
     t.request.threads = 1;
@@ -130,7 +128,6 @@ int main(void)
     const size_t count = sizeof rows / sizeof *rows;
     printf("%8s %8s %6s  work: scene, method, n, steps\n", "forecast", "CPU s", "ratio");
     for (const struct row *r = rows; r < rows + count; r++) {
-        struct br_error err = {0};
         struct br_named_method c;
         struct br_scene scene = br_test_bundled(r->scene);
         double took;

@@ -39,7 +39,6 @@ static double unit_seconds(void)
 
 static struct br_scene read_scene(const char *name)
 {
-    struct br_error err = {0};
     struct br_scene scene = {0};
     char path[1024];
     snprintf(path, sizeof path, "%s/tests/bench/exact/%s.yaml", getenv("BEAMRATE_DATA"), name);
@@ -70,7 +69,6 @@ static double own_error(const struct br_exact *exact)
 
 static void time_row(const struct row *row, double unit)
 {
-    struct br_error err = {0};
     struct br_scene scene = read_scene(row->scene);
     struct br_exact *exact = NULL;
     const struct br_exact_options options = {.acceptable = 1e-5}; /* as a study does */

@@ -53,7 +53,7 @@ void bench_put_skipped(json_t *row, const char *reason)
     json_object_set_new(row, "skipped", json_string(reason));
 }
 
-static enum br_status write_to(const char *path, struct br_error *err)
+static enum br_status write_to(const char *path, struct br_error *why)
 {
     struct br_provenance p;
     br_provenance_fill(&p, 1);
@@ -63,7 +63,7 @@ static enum br_status write_to(const char *path, struct br_error *err)
     const int failed = json_dump_file(root, path, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
     json_decref(root);
     if (failed)
-        return br_fail(err, BR_BAD_INPUT, "%s: cannot be written", path);
+        return br_fail(why, BR_BAD_INPUT, "%s: cannot be written", path);
     printf("\n%s was written\n", path);
     return BR_OK;
 }
@@ -77,25 +77,24 @@ static int set_up(void **state)
     return rows ? 0 : -1;
 }
 
-static int report(enum br_status status, const struct br_error *err)
+static int report(enum br_status status, const struct br_error *why)
 {
     if (status)
-        fprintf(stderr, "bench: %s\n", err->message);
+        fprintf(stderr, "bench: %s\n", why->message);
     return br_status_exit_code(status);
 }
 
 /* Whether the file can be written, before the long work. */
-static enum br_status check_path(const char *path, struct br_error *err)
+static enum br_status check_path(const char *path, struct br_error *why)
 {
     FILE *file = path ? fopen(path, "a") : NULL;
     if (file)
         fclose(file);
-    return path && !file ? br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno)) : BR_OK;
+    return path && !file ? br_fail(why, BR_BAD_INPUT, "%s: %s", path, strerror(errno)) : BR_OK;
 }
 
 int main(int argc, const char **argv)
 {
-    struct br_error err = {0};
     if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
         fprintf(stderr, "usage: bench [FILE]\n");
         return br_status_exit_code(BR_BAD_INPUT);

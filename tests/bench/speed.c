@@ -71,7 +71,6 @@ static void run_row(const struct series *s, size_t i, struct bench_march_time *t
     const double cost = bench_march_cost(&march, t->set_up * growth);
     const char *name = s->method.solver->name, *fields = field_names[s->fields];
     json_t *row = bench_row("%s %s %s n=%zu", name, s->kernel, fields, n);
-    struct br_error err = {0};
     printf("%-8s %-9s %-8s %8zu", name, s->kernel, fields, n);
     if (!(cost <= most_seconds)) {
         br_fail(&err, BR_BAD_INPUT, "would take about %.0f s", cost);
@@ -89,7 +88,6 @@ static void run_row(const struct series *s, size_t i, struct bench_march_time *t
 
 static void run_series(const struct series *s)
 {
-    struct br_error err = {0};
     struct bench_march_time t;
     MUST(bench_march(&(struct bench_march){&s->scene, &s->method, sizes[0], 0}, &t, &err));
     for (size_t i = 0; i < SIZES; i++)
@@ -146,7 +144,6 @@ void bench_loads(void **state)
     };
     const size_t n = 3200;
     const struct br_method method = bench_fast_method();
-    struct br_error err = {0};
     (void)state;
     printf("\nKinds of loads: %s, both fields, n = %zu, ns an element-step\n", method.solver->name,
            n);

@@ -65,15 +65,15 @@ double bench_march_cost(const struct bench_march *b, double set_up)
 }
 
 enum br_status bench_march(const struct bench_march *b, struct bench_march_time *time,
-                           struct br_error *err)
+                           struct br_error *why)
 {
     const double start = br_seconds();
     struct running r = {.steps = steps_of(b)};
     const size_t total = (REPEATS + 1) * r.steps;
     struct br_scene scene = *b->scene;
     scene.duration = total < 1000 ? 1e-3 * (double)total : 1;
-    if (br_march_create(&r.march, &scene, b->n, total, b->method, err))
-        return err->status;
+    if (br_march_create(&r.march, &scene, b->n, total, b->method, why))
+        return why->status;
     time->set_up = br_seconds() - start;
     time->step = bench_time(advance, &r, (double)(b->n * r.steps));
     br_march_free(r.march);

@@ -18,12 +18,12 @@ struct map {
     struct br_extreme_verdict *verdict;
 };
 
-static enum br_status find_verdict(void *self, size_t i, struct br_error *err)
+static enum br_status find_verdict(void *self, size_t i, struct br_error *why)
 {
     const struct map *m = self;
     struct br_extreme_case one;
     br_extreme_draw(m->seed, i, &one);
-    return br_extreme_check(&one, &(struct br_extreme_options){0}, &m->verdict[i], err);
+    return br_extreme_check(&one, &(struct br_extreme_options){0}, &m->verdict[i], why);
 }
 
 /* Prints the tally and an upper bound of the rate of what is silently wrong: 95 %, of Clopper and
@@ -41,7 +41,6 @@ static void print_tally(size_t cases, const size_t count[BR_EXTREME_CLASSES])
 /* How many of the first cases of a seed are silently wrong. all: prints the class of each. */
 static size_t try_seed(uint64_t seed, size_t cases, bool all)
 {
-    struct br_error err = {0};
     struct map m = {seed, br_allocate(cases, sizeof *m.verdict)};
     size_t count[BR_EXTREME_CLASSES] = {0};
     if (!m.verdict ||

@@ -44,7 +44,6 @@ struct tally {
 /* What a line shows. */
 static void observe(const struct br_error_line *line, struct br_point *point, struct br_case *c)
 {
-    struct br_error err = {0};
     *c = (struct br_case){
         .kind = BR_VERIFY_SPACE,
         .expected = {.order = NAN, .tolerance = tolerance, .floor = NAN, .ceiling = NAN},
@@ -163,7 +162,6 @@ static void try_held_out(size_t class, uint64_t seed, size_t index, struct tally
 static void find(size_t rows, const double *h, const double *k, const double *e, bool values,
                  struct br_numbers *n, struct br_orders *o)
 {
-    struct br_error err = {0};
     *n = (struct br_numbers){0};
     n->column[0] = br_resolution_column_find("h");
     n->column[1] = k ? br_resolution_column_find("k") : NULL;
@@ -188,8 +186,7 @@ static void find(size_t rows, const double *h, const double *k, const double *e,
 static enum br_verdict verdict_of(const struct br_orders *o, int axis, double expected,
                                   struct br_case *c)
 {
-    struct br_error err = {0};
-    struct br_check check = {.path = "made"};
+    OWNED(br_check) check = {.path = "made"};
     const struct br_order_expectation e = {
         .quantity = "e",
         .axis = (enum br_axis)axis,
@@ -197,7 +194,6 @@ static enum br_verdict verdict_of(const struct br_orders *o, int axis, double ex
     *c = (struct br_case){.verdict = BR_INCONCLUSIVE, .order = {NAN, NAN, NAN}};
     if (!br_orders_check(o, &e, 1, &check, &err)) /* else there is no line of three sizes */
         *c = check.cases[0];
-    br_check_clear(&check);
     return c->verdict;
 }
 
@@ -208,8 +204,8 @@ static const char *const found_texts[] = {"covers", "is near", "excludes", "not 
 static size_t try_published(const struct br_published *p)
 {
     const struct br_error_line *line = &p->line;
-    struct br_numbers n;
-    struct br_orders o;
+    OWNED(br_numbers) n;
+    OWNED(br_orders) o;
     struct br_case c;
     char order[64];
     find(line->rows, line->h, NULL, line->e, false, &n, &o);
@@ -219,8 +215,6 @@ static size_t try_published(const struct br_published *p)
     printf("# %-14s %-46s %g: %s, %s%s%s\n", found_texts[found], p->name, line->truth,
            br_order_text(&c.order, order, sizeof order), br_verdict_names[c.verdict],
            *c.note ? "; " : "", c.note);
-    br_orders_clear(&o);
-    br_numbers_clear(&n);
     return found;
 }
 
@@ -228,8 +222,8 @@ static size_t try_published(const struct br_published *p)
 static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
     const struct br_grid g = br_grid_of(class, seed, index);
-    struct br_numbers n;
-    struct br_orders o;
+    OWNED(br_numbers) n;
+    OWNED(br_orders) o;
     find(g.rows, g.h, g.k, g.e, false, &n, &o);
     for (int axis = 0; axis < BR_AXES; axis++) {
         struct br_case c;
@@ -244,8 +238,6 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
                           fabs(order->value - c.order.value) > 0;
         count(t, &c, order, (const double[]){truth, g.other[axis]}, c.note[0]);
     }
-    br_orders_clear(&o);
-    br_numbers_clear(&n);
 }
 
 /* Counts the interval of a limit. */
@@ -266,25 +258,21 @@ static void try_limit(size_t class, uint64_t seed, size_t index, struct tally *t
 {
     double truth;
     const struct br_grid g = br_value_grid_of(class, seed, index, &truth);
-    struct br_numbers n;
-    struct br_orders o;
+    OWNED(br_numbers) n;
+    OWNED(br_orders) o;
     find(g.rows, g.h, g.steps > 1 ? g.k : NULL, g.e, true, &n, &o);
     const struct br_estimate *limit = &o.of[0].limit.value;
     count_limit(t, limit->low, limit->high, truth, g.e[g.rows - 1]);
-    br_orders_clear(&o);
-    br_numbers_clear(&n);
 }
 
 /* What `orders` states of a line: its order or, of values, its limit. */
 static struct br_estimate stated(const struct br_error_line *line)
 {
-    struct br_numbers n;
-    struct br_orders o;
+    OWNED(br_numbers) n;
+    OWNED(br_orders) o;
     find(line->rows, line->h, NULL, line->e, line->values, &n, &o);
     const struct br_estimate found =
         line->values ? o.of[0].limit.value : o.of[0].answer[BR_AXIS_SPACE].order;
-    br_orders_clear(&o);
-    br_numbers_clear(&n);
     return found;
 }
 

@@ -407,13 +407,13 @@ static bool names_left(const struct br_numbers *n, const char *text)
 }
 
 static struct outcome find_outcome(const struct br_numbers *n, enum br_status status,
-                                   const struct br_error *err, const struct expected *e,
+                                   const struct br_error *why, const struct expected *e,
                                    struct change change)
 {
     struct outcome o = {.verdict = RIGHT};
     if (status) {
-        const bool helps = strstr(err->message, "--") || strstr(err->message, "dimension:");
-        snprintf(o.why, sizeof o.why, "%.590s", err->message);
+        const bool helps = strstr(why->message, "--") || strstr(why->message, "dimension:");
+        snprintf(o.why, sizeof o.why, "%.590s", why->message);
         if (!(e->refuses || ((e->asks || e->may_ask) && helps)))
             o.verdict = helps ? ASKED : REFUSED;
         return o;
@@ -440,9 +440,8 @@ static struct outcome find_outcome(const struct br_numbers *n, enum br_status st
 static struct outcome read_table(const char *table, const struct table_case *c,
                                  struct change change)
 {
-    struct br_error err = {0};
-    struct br_numbers n = {0};
-    struct br_orders_request r = br_orders_request_default();
+    OWNED(br_numbers) n = {0};
+    OWNED(br_orders_request) r = br_orders_request_default();
     r.path = copy_of(c->name, strlen(c->name));
     r.table = copy_of(table, strlen(table));
     enum br_status status = BR_OK;
@@ -451,8 +450,6 @@ static struct outcome read_table(const char *table, const struct table_case *c,
     else
         status = br_fail(&err, BR_BAD_INPUT, "no such option: %s", c->options);
     const struct outcome o = find_outcome(&n, status, &err, &c->expected, change);
-    br_numbers_clear(&n);
-    br_orders_request_clear(&r);
     return o;
 }
 
@@ -797,7 +794,7 @@ static char *contents(const char *path)
 /* That a case's names are in its table, for cases that are not tried yet. */
 static void check(const struct table_case *c)
 {
-    char *table = copy_of(c->table, c->length);
+    FREED char *table = copy_of(c->table, c->length);
     const struct expected *e = &c->expected;
     size_t lines = 0;
     for (const char *t = table; *t; t++)
@@ -813,7 +810,6 @@ static void check(const struct table_case *c)
         if (s->count > lines && !strchr("[{", table[0]))
             printf("# %s: more sizes than lines\n", c->name);
     }
-    free(table);
 }
 
 enum { USUAL = 4 };
@@ -847,9 +843,8 @@ int main(int arguments, char **argument)
             check(&cases[i]);
             continue;
         }
-        char *table = copy_of(cases[i].table, cases[i].length);
+        FREED char *table = copy_of(cases[i].table, cases[i].length);
         const struct outcome o = read_table(table, &cases[i], (struct change){false, false});
-        free(table);
         count(tally_of(kinds, &known, cases[i].kind), &o);
         count(&total, &o);
         if (o.verdict >= WRONG || (all && o.verdict > ASSUMED))

@@ -66,7 +66,6 @@ TEST(test_commands)
     for (size_t i = 0; i < cases; i++) {
         struct br_extreme_case one;
         struct br_extreme_verdict verdict;
-        struct br_error err = {0};
         br_extreme_draw(2, i, &one);
         assert_int_equal(br_extreme_check(&one, &options, &verdict, &err), BR_OK);
         /* What the map's limit ends goes on for a user. */

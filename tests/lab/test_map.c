@@ -46,7 +46,6 @@ static struct br_extreme_verdict find_verdict(struct named which,
 {
     struct br_extreme_case one;
     struct br_extreme_verdict verdict;
-    struct br_error err = {0};
     br_extreme_draw(which.seed, which.index, &one);
     assert_int_equal(br_extreme_check(&one, options, &verdict, &err), BR_OK);
     return verdict;
@@ -226,14 +225,12 @@ TEST(test_errors)
         {{NAN, 1}, {1, 1}, NAN, NAN},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_track *own = made_track(rows[i].own[0], rows[i].own[1]);
-        struct br_track *reference = made_track(rows[i].reference[0], rows[i].reference[1]);
+        FREED struct br_track *own = made_track(rows[i].own[0], rows[i].own[1]);
+        FREED struct br_track *reference = made_track(rows[i].reference[0], rows[i].reference[1]);
         double sure;
         const double e = br_track_error(own, reference, BR_AXIAL, &sure);
         if (isnan(rows[i].least) ? !isnan(e)
                                  : !(e >= rows[i].least - 1e-12 && e <= rows[i].most + 1e-12))
             fail_msg("row %zu: %g", i, e);
-        free(own);
-        free(reference);
     }
 }

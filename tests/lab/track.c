@@ -88,7 +88,7 @@ static void record_field(struct recorder *l, const struct br_march *march, enum 
 }
 
 static enum br_status record(void *self, const struct br_march *march,
-                             const struct br_history_row *row, struct br_error *err)
+                             const struct br_history_row *row, struct br_error *why)
 {
     struct recorder *l = self;
     (void)row;
@@ -96,7 +96,7 @@ static enum br_status record(void *self, const struct br_march *march,
         l->nodal =
             br_allocate(4 * (l->request->samples->n * l->request->finer + 1), sizeof *l->nodal);
     if (!l->nodal)
-        return br_no_memory(err, "a march's values");
+        return br_no_memory(why, "a march's values");
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (br_march_models(march, kind))
             record_field(l, march, kind);
@@ -105,10 +105,10 @@ static enum br_status record(void *self, const struct br_march *march,
 }
 
 static enum br_status record_step(void *self, const struct br_march *march,
-                                  const struct br_history_row *row, struct br_error *err)
+                                  const struct br_history_row *row, struct br_error *why)
 {
     struct br_track *t = ((struct recorder *)self)->track;
-    (void)err;
+    (void)why;
     (void)row;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         t->largest[kind] = fmax(t->largest[kind], fabs(br_march_tip_displacement(march, kind)));
@@ -116,7 +116,7 @@ static enum br_status record_step(void *self, const struct br_march *march,
 }
 
 enum br_status br_track_march(const struct br_track_request *q, struct br_track *t,
-                              struct br_error *err)
+                              struct br_error *why)
 {
     *t = (struct br_track){.samples = *q->samples, .finite = true};
     struct recorder recorder = {.request = q, .track = t};
@@ -140,7 +140,7 @@ enum br_status br_track_march(const struct br_track_request *q, struct br_track 
     const enum br_status status = br_run(&request, &t->report, &t->failure);
     free(recorder.nodal);
     if (status == BR_NO_MEMORY)
-        return br_fail(err, status, "%s", t->failure.message);
+        return br_fail(why, status, "%s", t->failure.message);
     t->begun = !status;
     if (!status)
         t->failure = t->report.failure;
@@ -208,7 +208,7 @@ static void record_exact(const struct br_exact *exact, const struct br_scene *sc
 }
 
 enum br_status br_track_exact(const struct br_scene *scene, const struct br_track_samples *samples,
-                              size_t steps, struct br_track *t, struct br_error *err)
+                              size_t steps, struct br_track *t, struct br_error *why)
 {
     *t = (struct br_track){.samples = *samples, .finite = true};
     struct step_limit limit = {steps};
@@ -224,7 +224,7 @@ enum br_status br_track_exact(const struct br_scene *scene, const struct br_trac
     if (!status)
         record_exact(exact, scene, t);
     br_exact_free(exact);
-    return t->failure.status == BR_NO_MEMORY ? br_no_memory(err, "the exact solution") : BR_OK;
+    return t->failure.status == BR_NO_MEMORY ? br_no_memory(why, "the exact solution") : BR_OK;
 }
 
 /* ---- distances ---- */

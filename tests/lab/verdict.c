@@ -117,7 +117,7 @@ static bool exact_knows(const struct trial *t)
 /* Marches by a scheme that takes little energy from a vibration, but is not the one that predicts
  * errors. */
 static enum br_status march_finer(struct trial *t, size_t finer, double times,
-                                  struct br_track *track, struct br_error *err)
+                                  struct br_track *track, struct br_error *why)
 {
     struct br_track_request request = request_of(t);
     const bool chosen = t->method.scheme->adaptive;
@@ -133,7 +133,7 @@ static enum br_status march_finer(struct trial *t, size_t finer, double times,
         (double)t->one->n * (double)t->one->steps * br_time_scheme_stages(fine.scheme);
     const double room = refined_work / ((double)finer * solves);
     request.shorter = chosen ? 1 : (size_t)(times * floor(fmin(32, fmax(2, room))));
-    return br_track_march(&request, track, err);
+    return br_track_march(&request, track, why);
 }
 
 static size_t finer_mesh(const struct trial *t)
@@ -141,11 +141,11 @@ static size_t finer_mesh(const struct trial *t)
     return t->one->n < 16 ? 8 : t->one->n < 200 ? 4 : 2;
 }
 
-static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_error *err)
+static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_error *why)
 {
     const enum br_status status =
-        by == BR_BY_EXACT ? br_track_exact(&t->marched, &t->samples, MOST_STEPS, t->other, err)
-                          : march_finer(t, finer_mesh(t), 1, t->other, err);
+        by == BR_BY_EXACT ? br_track_exact(&t->marched, &t->samples, MOST_STEPS, t->other, why)
+                          : march_finer(t, finer_mesh(t), 1, t->other, why);
     if (status || t->other->failure.status)
         return status;
     t->verdict->by = by;
@@ -154,12 +154,12 @@ static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_erro
 }
 
 /* Before a case is called wrong, a still finer march measures the reference's own error. */
-static enum br_status ask_again(struct trial *t, struct br_error *err)
+static enum br_status ask_again(struct trial *t, struct br_error *why)
 {
     struct br_track *finest = br_allocate(1, sizeof *finest), *other = t->other;
     if (!finest)
-        return br_no_memory(err, "a march");
-    const enum br_status status = march_finer(t, 2 * finer_mesh(t), 2, finest, err);
+        return br_no_memory(why, "a march");
+    const enum br_status status = march_finer(t, 2 * finer_mesh(t), 2, finest, why);
     if (!status && !finest->failure.status) {
         double sure;
         for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -206,17 +206,17 @@ static void decide_accuracy(struct trial *t)
     t->verdict->which = which;
 }
 
-static enum br_status check_accuracy(struct trial *t, struct br_error *err)
+static enum br_status check_accuracy(struct trial *t, struct br_error *why)
 {
-    enum br_status status = exact_knows(t) ? ask(t, BR_BY_EXACT, err) : BR_OK;
+    enum br_status status = exact_knows(t) ? ask(t, BR_BY_EXACT, why) : BR_OK;
     if (!status && t->verdict->by == BR_BY_NOBODY)
-        status = ask(t, BR_BY_REFINEMENT, err);
+        status = ask(t, BR_BY_REFINEMENT, why);
     if (!status && t->verdict->by == BR_BY_REFINEMENT && !(t->beyond <= 0))
-        status = ask_again(t, err);
+        status = ask_again(t, why);
     /* Refinements may both miss what happens within a step. The law that is not smoothed is what
      * the smoothed one stands for: who is as near to it as stated is right. */
     if (!status && !(t->beyond <= 0) && !t->options->quick && !exact_knows(t))
-        status = ask(t, BR_BY_EXACT, err);
+        status = ask(t, BR_BY_EXACT, why);
     if (!status)
         decide_accuracy(t);
     return status;
@@ -226,16 +226,16 @@ static enum br_status check_accuracy(struct trial *t, struct br_error *err)
 
 /* A failure that the program reports: the case is refused. */
 static enum br_status refuse(struct trial *t, enum br_status status, const struct br_error *said,
-                             struct br_error *err)
+                             struct br_error *why)
 {
     if (status == BR_NO_MEMORY)
-        return br_fail(err, status, "%s", said->message);
+        return br_fail(why, status, "%s", said->message);
     decide(t, status == BR_INTERRUPTED ? BR_EXTREME_UNCHECKED : BR_EXTREME_REFUSED, "%.180s",
            said->message);
     return BR_OK;
 }
 
-static enum br_status read_case(struct trial *t, struct br_error *err)
+static enum br_status read_case(struct trial *t, struct br_error *why)
 {
     char text[BR_EXTREME_TEXT];
     struct br_error said = {0};
@@ -255,24 +255,24 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
     for (size_t i = 0; i < t->warnings.count; i++)
         t->verdict->warned |= 1u << t->warnings.list[i].kind;
     t->verdict->known = t->prediction.known;
-    return status ? refuse(t, status, &said, err) : BR_OK;
+    return status ? refuse(t, status, &said, why) : BR_OK;
 }
 
 /* ---- the march ---- */
 
 /* Marches the case with all checks. */
-static enum br_status march(struct trial *t, struct br_error *err)
+static enum br_status march(struct trial *t, struct br_error *why)
 {
     struct br_track_request request = request_of(t);
     const struct br_track *own = t->own;
     request.check = true;
-    enum br_status status = br_track_march(&request, t->own, err);
+    enum br_status status = br_track_march(&request, t->own, why);
     if (status)
         return status;
     if (own->report.contact_unstable)
         t->verdict->warned |= 1u << BR_WARN_UNSTABLE;
     if (own->failure.status)
-        return refuse(t, own->failure.status, &own->failure, err);
+        return refuse(t, own->failure.status, &own->failure, why);
     if (own->report.bad_steps)
         decide(t, BR_EXTREME_WRONG, "certificate: %.160s", own->report.verdict.message);
     else if (!own->finite)
@@ -285,19 +285,19 @@ static enum br_status march(struct trial *t, struct br_error *err)
 
 /* ---- all of it ---- */
 
-static enum br_status find_verdict(struct trial *t, struct br_error *err)
+static enum br_status find_verdict(struct trial *t, struct br_error *why)
 {
-    enum br_status status = read_case(t, err);
+    enum br_status status = read_case(t, why);
     if (!status && !t->done)
-        status = march(t, err);
+        status = march(t, why);
     if (!status && !t->done)
-        status = check_accuracy(t, err);
+        status = check_accuracy(t, why);
     return status;
 }
 
 enum br_status br_extreme_check(const struct br_extreme_case *one,
                                 const struct br_extreme_options *options,
-                                struct br_extreme_verdict *verdict, struct br_error *err)
+                                struct br_extreme_verdict *verdict, struct br_error *why)
 {
     *verdict = (struct br_extreme_verdict){.error = NAN, .nearest = NAN, .stated = NAN};
     struct trial t = {.one = one, .options = options, .verdict = verdict, .method = one->method};
@@ -306,7 +306,7 @@ enum br_status br_extreme_check(const struct br_extreme_case *one,
     t.own = br_allocate(1, sizeof *t.own);
     t.other = br_allocate(1, sizeof *t.other);
     const enum br_status status =
-        t.own && t.other ? find_verdict(&t, err) : br_no_memory(err, "the verdict on a case");
+        t.own && t.other ? find_verdict(&t, why) : br_no_memory(why, "the verdict on a case");
     br_scene_clear(&t.scene);
     free(t.own);
     free(t.other);
