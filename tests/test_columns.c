@@ -74,12 +74,7 @@ TEST(test_formats)
 TEST(test_names_and_units)
 {
     OWNED(br_numbers)
-    n = read_with("h [mm],dt (s),f(x) [N/m],\"a
-\"\"b\"\", c\"
-1,4,3,4
-.5,2,2,2
-.25,1,,1
-",
+    n = read_with("h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,4\n.5,2,2,2\n.25,1,,1\n",
                   &(struct columns){NULL, NULL, 2, "1=h,dt=dt"});
     assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
     assert_string_equal(n.unit[BR_AXIS_TIME], "s");
