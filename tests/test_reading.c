@@ -513,15 +513,13 @@ TEST(test_many_left_aside)
 {
     enum { SCALED = 40 };
     char text[2000] = "a = [1,2,3]\nb = [[1,2],[3,4],[5,6]]\n";
-    struct br_fields fields;
-    struct br_error err = {0};
+    OWNED(br_fields) fields;
     for (int i = 0; i < SCALED; i++)
         sprintf(text + strlen(text), "x%d = 2*[1,2,3]\n", i);
     MUST(br_fields_read(text, "t", NULL, &fields, &err));
     assert_int_equal(fields.lefts, SCALED + 1);
     assert_string_equal(fields.left[SCALED - 1].text, "x39 = 2*[1,2,3]");
     assert_string_equal(fields.left[SCALED].text, ": {\"a\":[\"1\",\"2\",\"3\"]}");
-    br_fields_clear(&fields);
 }
 
 static bool always(__attribute__((unused)) void *self)
