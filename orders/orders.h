@@ -84,6 +84,7 @@ struct br_numbers {
                               program's */
     struct br_left_aside *left; /* of a table, what has no part in the numbers */
     size_t lefts;
+    const char *other_error;            /* one of these that is called an error; NULL: none is */
     struct br_store store;              /* of these texts */
     const struct br_observer *observer; /* stops fits; may be NULL; borrowed */
 };

@@ -276,6 +276,13 @@ static void leave(struct source *s, const char *why)
         n->left[n->lefts++] = (struct br_left_aside){what, why};
 }
 
+/* Whether a column that is left aside is called an error, and may be one that does not fall. */
+static bool may_stagnate(const struct br_role_column *c)
+{
+    return c->role == BR_ROLE_ASIDE && c->kind == BR_KIND_ERROR && !c->by_hand && c->numbers &&
+           !c->is_whole && c->least >= 0 && !br_is_residual(c->name);
+}
+
 /* Lists all that is left aside. */
 static void list_left(struct source *s)
 {
@@ -290,6 +297,9 @@ static void list_left(struct source *s)
             !is_cost(s, &r->column[i])) {
             say(s, r->column[i].name ? "%s" : "column %s", r->column[i].label);
             leave(s, r->column[i].why);
+            if (!s->no_memory && may_stagnate(&r->column[i]) && !s->request->errors &&
+                !s->request->values)
+                s->numbers->other_error = s->numbers->left[s->numbers->lefts - 1].what;
         }
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].rates_in_brackets) {

@@ -171,6 +171,7 @@ TEST(test_verdicts)
     /* against a reference of a size near the finest */
     static const char rises[] = "h,l2\n.1,1\n.05,.57196\n.025,.26775\n.0125,.093036\n";
     static const char digits[] = "n,l2\n4,.0613\n8,.0154\n16,.00387\n32,.000966\n64,.000243\n",
+                      stays[] = "h,L2,H1\n1,4,.5\n.5,1,.5\n.25,.25,.5\n.125,.0625,.5\n",
                       two[] = "h,Eh,eH\n1,4,4\n.5,1,1\n.25,.25,.25\n.125,.0625,.0625\n";
     static const char cases[] = "m,n,l2\nA,1,1\nA,2,.25\nA,4,.0625\nA,8,.015625\nB,1,1\nB,2,.5\n"
                                 "B,4,.25\nB,8,.125\nB,16,.0625\n";
@@ -234,6 +235,8 @@ TEST(test_verdicts)
         {grid, NULL, "k >= 0.9", BR_PASS, ""},
         {grid, NULL, "2", REFUSED_ONE, "h and k are refined: expected one of the two"},
         {two, NULL, "2", REFUSED_ONE, "2 columns may be meant: expected the name of one"},
+        {stays, NULL, "2", REFUSED_ONE, "two columns may be meant, of which H1 is left aside"},
+        {stays, NULL, "l2: 2", BR_PASS, ""},
         {two, NULL, "Eh = 2; eH = 2", BR_PASS, ""},
         {two, NULL, "eh = 2", REFUSED_ONE,
          "an order of eh is expected, and 2 columns may be meant"},

@@ -243,6 +243,11 @@ enum br_status br_expectation_find(const struct br_numbers *n, struct br_order_e
                        "an order%s%s is expected, and %zu columns may be meant: expected the name "
                        "of one before it, as in '%.60s: h 2 +- 0.1'",
                        *e->quantity ? " of " : "", e->quantity, count, n->quantity[similar].name);
+    if (!*e->quantity && n->other_error && count == 1)
+        return br_fail(err, BR_BAD_INPUT,
+                       "an order is expected, and two columns may be meant, of which %.60s is left "
+                       "aside: expected the name of one before it, as in '%.60s: h 2 +- 0.1'",
+                       n->other_error, n->quantity[similar].name);
     const bool in_h = n->column[BR_AXIS_SPACE], in_k = n->column[BR_AXIS_TIME];
     if (e->axis == BR_AXES && in_h && in_k)
         return br_fail(err, BR_BAD_INPUT,

@@ -217,8 +217,9 @@ static bool are_sides(const struct br_roles *r, size_t column)
 static void drop_signs(const struct br_roles *r, struct br_role_column *c)
 {
     static const double falls = 2;
-    const bool is_error =
-        c->kind == BR_KIND_ERROR ? br_says_error(c->name) : c->role == BR_ROLE_ERROR;
+    const bool is_error = c->kind == BR_KIND_ERROR
+                              ? br_says_error(c->name) && strcmp(c->name, "E") != 0 /* energy */
+                              : c->role == BR_ROLE_ERROR;
     c->without_sign = is_error && !c->is_value && c->most <= 0 && c->least < falls * c->most;
     for (size_t i = 0; i < r->rows && c->without_sign; i++)
         c->number[i] = fabs(c->number[i]);

@@ -183,8 +183,9 @@ static const struct br_candidate *plainest(const struct contest *t, const struct
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < t->candidates; i++) {
             const struct br_candidate *c = &t->candidate[i];
+            const struct br_role_column *column = &t->roles->column[c->size.column];
             const bool halves = pass && c->halves && c->size.column == found->size.column &&
-                                !t->roles->column[c->size.column].by_hand;
+                                !column->by_hand && !br_is_no_number_of_points(column->name);
             if ((halves || (!pass && plainness(t, c) > plainness(t, found))) &&
                 br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
                 found = c;

@@ -141,7 +141,8 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
         return br_no_memory(err, "the table");
     c->name = name;
     c->unit = split_unit(name);
-    if (!c->unit && !(c->unit = br_unit_behind_slash(name)))
+    c->unit = c->unit && br_is_logarithm(c->unit) ? NULL : c->unit; /* "error (log10)" */
+    if (!c->unit && (strcmp(name, text) != 0 || !(c->unit = br_unit_behind_slash(name))))
         strcpy(name, text);
     weigh_name(c);
     for (size_t j = 0; j < r->columns && c->unit && c->named < BR_USUAL_NAME; j++)

@@ -536,6 +536,26 @@ static const char *name_behind(struct splitter *s, const char **behind)
     return copy(s, word, word + length);
 }
 
+/* The word behind a number that a preposition joins to an error, "Error after 10 steps is": it is
+ * the name of the number, and the error that of the next one. Empty: there is no such word. */
+static const char *name_behind_joined(struct splitter *s, const char *name, const char **behind)
+{
+    const char *const word = *behind + strspn(*behind, " \t");
+    const char *end = word;
+    while (isalpha((unsigned char)*end))
+        end++;
+    s->before = copy(s, name, name + strlen(name));
+    *behind = end;
+    return copy(s, word, end);
+}
+
+static bool joins_error(const char *name)
+{
+    const char *const last = strrchr(name, ' ');
+    return last && br_kind_of(name) == BR_KIND_ERROR &&
+           is_one_of(" after for at with on using ", last + 1, name + strlen(name));
+}
+
 /* The name with the unit that ends the clause of a number, as a heading has it: lines with other
  * units have other names. *at: behind the number, then behind the unit. */
 static const char *add_unit(struct splitter *s, const char *name, const char **at)
@@ -572,7 +592,9 @@ static bool split_sentence(struct splitter *s, const char *at)
         const char *const begin = begin_of_name(at, next);
         const char *name = copy_name(s, begin + (*begin == '('), next);
         const char *const last = end_of_word(next, behind);
-        name = *name ? name_of_verb(s, name) : name_behind(s, &behind);
+        name = joins_error(name) ? name_behind_joined(s, name, &behind)
+               : *name           ? name_of_verb(s, name)
+                                 : name_behind(s, &behind);
         if ((!*name && s->count) || s->count > BR_MOST_COLUMNS || has_exponent_behind(behind))
             return false;
         name = add_unit(s, name, &behind);

@@ -412,27 +412,65 @@ static const char *next_statement(const char *at)
     return skip_prompt(skip_space(*at ? at + 1 : at, NULL));
 }
 
-/* Whether a statement changes what has a name: "e = ", "e[0] = ", "e /= ", "e.append(", "push!(e".
+/* The next place from `at` to `end` where the name of a list stands as a word; NULL: there is none.
  */
+static const char *find_name(const char *at, const char *end, const struct list *list)
+{
+    const size_t length = (size_t)(list->end - list->name);
+    for (bool inside = false; at + length <= end; at++) {
+        const bool is = !inside && strncmp(at, list->name, length) == 0 &&
+                        !isalnum((unsigned char)at[length]) && at[length] != '_';
+        if (is)
+            return at;
+        inside = isalnum((unsigned char)*at) || *at == '_' || *at == '.';
+    }
+    return NULL;
+}
+
+/* The end of a statement without a comment behind it. */
+static const char *end_of_statement(const char *at)
+{
+    while (!strchr(";\n#", *at) && !(*at == '%' && at[1] != '='))
+        at++;
+    return at;
+}
+
+/* The sign of an assignment in a statement, "=" or "<-", outside of brackets and texts; *target
+ * (out): what is behind "if x:" in front. NULL: there is none. */
+static const char *assignment(const char *at, const char *end, const char **target)
+{
+    int depth = 0;
+    for (*target = at; at < end; at++) {
+        const char *const quoted = *at == '"' || *at == '\'' ? skip_quoted(at) : NULL;
+        at = quoted && quoted < end ? quoted : at;
+        depth += strchr("[({", *at) ? 1 : strchr("])}", *at) ? -1 : 0;
+        if (depth)
+            continue;
+        if (strncmp(at, "<-", 2) == 0 || (*at == '=' && at[1] != '='))
+            return at;
+        *target = *at == ':' ? at + 1 : *target;
+        at += (*at == '=' || strchr("<>!~", *at)) && at[1] == '='; /* a comparison */
+    }
+    return NULL;
+}
+
+/* Whether a statement changes what has a name: "e = ", "h, e[0] = ", "e /= ", "e.append(", "del e",
+ * "sort!(h, e)", "f(e, out=e)". */
 static bool changes(const char *at, const struct list *list)
 {
-    static const char *const ways[] = {".append",  ".extend", ".insert", ".sort",
-                                       ".reverse", ".pop",    ".remove"};
-    const size_t length = (size_t)(list->end - list->name), word = strcspn(at, "(\n");
-    const bool by_call = word && strncmp(at + word - 1, "!(", 2) == 0;
-    at += by_call ? word + 1 : 0;
-    if (strncmp(at, list->name, length) != 0 || isalnum((unsigned char)at[length]) ||
-        at[length] == '_')
-        return false;
-    at += length;
-    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
-        if (by_call || strncmp(at, ways[i], strlen(ways[i])) == 0)
-            return true;
-    if (*at && strchr("[(", *at))
-        at += strcspn(at, "])\n") + 1;
-    at += strspn(at, " \t");
-    at += strspn(at, "+-*/.^");
-    return (*at == '=' && at[1] != '=') || strncmp(at, "<-", 2) == 0;
+    static const char *const ways[] = {".append", ".extend", ".insert", ".sort", ".reverse",
+                                       ".pop",    ".remove", ".clear",  ".fill", ".resize"};
+    const char *target, *const end = end_of_statement(at),
+                               *const sign = assignment(at, end, &target);
+    const char *const bang = memmem(at, (size_t)(end - at), "!(", 2);
+    const char *const out = memmem(at, (size_t)(end - at), "out=", 4);
+    const char *const name = find_name(at, end, list);
+    bool by_method = false;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways && name == at; i++)
+        by_method |= strncmp(at + (list->end - list->name), ways[i], strlen(ways[i])) == 0;
+    return name && (by_method || strncmp(at, "del ", 4) == 0 ||
+                    (sign && (name == at || find_name(target, sign, list))) ||
+                    (bang && find_name(bang, end, list)) || (out && find_name(out + 4, end, list)));
 }
 
 /* Whether a statement gives another list with the name of one. */

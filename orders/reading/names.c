@@ -381,8 +381,15 @@ static const char logarithms[] = " log log2 log10 ln lg ";
 
 bool br_is_logarithm(const char *name)
 {
-    char word[LONGEST];
-    return next_word(&name, word) && lists(logarithms, word);
+    char first[LONGEST], last[LONGEST];
+    const char *at = name, *end = name + strlen(name);
+    while (end > name && strchr(" )]", end[-1]))
+        end--;
+    const bool decibels = end - name >= 2 && strncasecmp(end - 2, "db", 2) == 0 &&
+                          (end - name == 2 || !isalnum((unsigned char)end[-3]));
+    last_word(name, last);
+    return decibels || lists(logarithms, last) ||
+           (next_word(&at, first) && lists(logarithms, first));
 }
 
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor)
@@ -434,6 +441,18 @@ bool br_is_samples(const char *name)
     char text[LONGEST];
     without_fill(name, text);
     return lists(" samples nsamples samplesize paths npaths ", text);
+}
+
+bool br_is_no_number_of_points(const char *name)
+{
+    static const char *const others[] = {"cell", "elem",   "interval", "divi", "nel",
+                                         "inv",  "sample", "path",     "over"};
+    char text[LONGEST];
+    plain(name ? name : "", text);
+    bool is = name && formula_of(name);
+    for (size_t i = 0; i < sizeof others / sizeof *others && !is; i++)
+        is = strstr(text, others[i]);
+    return is;
 }
 
 bool br_is_coefficient(const char *name)

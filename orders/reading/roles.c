@@ -260,8 +260,9 @@ static bool has_magnitudes(const struct br_roles *r, size_t i)
 static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
                             const size_t *sorted, size_t i, double most, bool errors)
 {
-    static const double small = 1e-6, of_round_off = 1e-8;
+    static const double small = 1e-6;
     const struct br_role_column *c = &r->column[i];
+    const double of_round_off = br_says_error(c->name) ? 1e-12 : 1e-8;
     return c->least == 0 && c->most == 0       ? "zeros"
            : !(c->least < c->most)             ? "one number only"
            : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"

@@ -33,7 +33,8 @@ enum br_kind {
 };
 enum br_kind br_kind_of(const char *name);
 
-bool br_is_logarithm(const char *name); /* "log10 cpu" */
+/* Whether a name or a unit is that of logarithms: "log10 cpu", "error_log", "dB". */
+bool br_is_logarithm(const char *name);
 
 /* The cost that a name and a unit (NULL: none) say; BR_COSTS: none. *factor (out): to s or MB. */
 enum br_cost br_cost_of(const char *name, const char *unit, double *factor);
@@ -64,6 +65,9 @@ bool br_is_unit(const char *text);
 
 /* Whether a name is that of a number of samples, which is no number of elements. */
 bool br_is_samples(const char *name);
+
+/* Whether a name is one of cells, intervals, samples, or an inverse size: points are none. */
+bool br_is_no_number_of_points(const char *name);
 
 /* Whether a field says that its row has no run: "Richardson extrapolated". */
 bool br_is_summary(const char *text);
