@@ -583,6 +583,15 @@ static void leave_one_axis(struct br_roles *r, const struct br_candidate **space
     (of_time ? h : k)->why = of_time ? "refined together with k" : "refined together with h";
 }
 
+/* Whether sizes beside a time step may be those of a mesh, by their name or as "8x8". */
+static bool may_be_of_a_mesh(const struct br_role_column *c)
+{
+    bool may = c->of_sides;
+    for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+        may |= s->axis == BR_AXIS_SPACE && br_odds(c, s) >= 2;
+    return may;
+}
+
 enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
 {
     struct contest of_time = {.roles = r, .axis = BR_AXIS_TIME},
@@ -599,8 +608,7 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
     const struct br_candidate *plain = space ? plainest(&of_space, space) : NULL;
     const struct br_role_column *c = space ? &r->column[plain->size.column] : NULL;
     if (space && time && !c->by_hand &&
-        (br_odds(c, plain->size.states) < 2 ||
-         (space->contradicts_rates && time->agrees_with_rates)))
+        (!may_be_of_a_mesh(c) || (space->contradicts_rates && time->agrees_with_rates)))
         space = NULL;
     if (space && time) {
         struct br_role_column *k = &r->column[time->size.column];

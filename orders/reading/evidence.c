@@ -431,18 +431,23 @@ static bool falls_less(const struct br_roles *r, const struct br_role_column *c)
     return less;
 }
 
-/* Whether a column is equally spaced, which parameters are and errors are not. */
+/* Whether a column is equally spaced within its digits, which parameters are and errors are not. */
 static bool is_even(const struct view *v, size_t column)
 {
-    const double *e = v->roles->column[column].number;
+    static const double most = 0.05; /* of a step, by the digits */
+    const struct br_role_column *c = &v->roles->column[column];
+    const double *e = c->number;
     size_t count = 0;
-    double step = NAN;
+    double step = NAN, first = NAN;
     struct pair p;
     for (size_t at = 0; next_pair(v, &at, &p); count++) {
         const double by = e[p.coarse] - e[p.fine];
-        if (count && !(fabs(by - step) <= 1e-9 * fabs(step)))
-            return false;
+        const double digits = fabs(e[p.coarse]) * c->rounding[p.coarse] +
+                              fabs(e[p.fine]) * c->rounding[p.fine] + 1e-9 * fabs(by);
         step = count ? step : by;
+        first = count ? first : digits;
+        if (!(fabs(by - step) <= fmin(digits + first, most * fabs(step))))
+            return false;
     }
     return count > 2;
 }

@@ -518,8 +518,8 @@ enum br_kind br_kind_of(const char *name)
     }
     if ((!found || found == BR_KIND_ERROR) && br_is_logarithm(name))
         return BR_KIND_LOGARITHM;
-    return found                                            ? found
-           : strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
-           : strchr(name, '|') || strstr(name, "\\|")       ? BR_KIND_ERROR
-                                                            : BR_KIND_UNKNOWN;
+    return found                                               ? found
+           : strstr(name, "\xc2\xb1") || strstr(name, "+-")    ? BR_KIND_DEVIATION
+           : strchr(name, '|') || strstr(name, "\xe2\x80\x96") ? BR_KIND_ERROR
+                                                               : BR_KIND_UNKNOWN;
 }

@@ -238,7 +238,8 @@ static bool is_power_of_size(const struct br_roles *r, size_t i)
             low = fmin(low, off); /* that of a gap is none */
             high = fmax(high, off);
         }
-        if (br_name_odds(base, NULL, size) >= BR_USUAL_NAME && high - low <= 0.02)
+        if (br_name_odds(base, NULL, size) >= BR_USUAL_NAME &&
+            (strchr(c->name, '^') || high - low <= 0.02)) /* "h2" may be a norm */
             return true;
     }
     return false;
@@ -256,20 +257,30 @@ static bool has_magnitudes(const struct br_roles *r, size_t i)
     return has;
 }
 
+/* Whether a column has round-off beside errors, of which `most` is the greatest. One that is called
+ * an error may be small. */
+static bool is_round_off(const struct br_roles *r, const struct br_candidate *over,
+                         const size_t *sorted, size_t i, double most)
+{
+    static const double small = 1e-6, always = 1e-12, perhaps = 1e-8;
+    const struct br_role_column *c = &r->column[i];
+    const bool is_error = br_says_error(c->name);
+    return c->most <= small * most &&
+           ((c->most <= always && !is_error) ||
+            (c->most <= (is_error ? always : perhaps) && !br_evidence_falls(r, over, sorted, i)));
+}
+
 /* Why a column of errors shows no order; NULL: it may. most: of the greatest error. */
 static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
                             const size_t *sorted, size_t i, double most, bool errors)
 {
-    static const double small = 1e-6;
     const struct br_role_column *c = &r->column[i];
-    const double of_round_off = br_says_error(c->name) ? 1e-12 : 1e-8;
-    return c->least == 0 && c->most == 0       ? "zeros"
-           : !(c->least < c->most)             ? "one number only"
-           : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"
-           : has_magnitudes(r, i)              ? "an error with its sign"
-           : c->most <= fmin(of_round_off, small * most) && !br_evidence_falls(r, over, sorted, i)
-               ? "round-off beside the errors"
-               : NULL;
+    return c->least == 0 && c->most == 0            ? "zeros"
+           : !(c->least < c->most)                  ? "one number only"
+           : errors && br_is_residual(c->name)      ? "a residual: --error, if it is studied"
+           : has_magnitudes(r, i)                   ? "an error with its sign"
+           : is_round_off(r, over, sorted, i, most) ? "round-off beside the errors"
+                                                    : NULL;
 }
 
 static bool may_be_idle(const struct br_role_column *c)
