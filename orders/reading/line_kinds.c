@@ -18,7 +18,8 @@ static bool says_one_of(const char *const *words, const char *text)
     return *words;
 }
 
-static const char *const crashes[] = {"segmentation fault", "segfault", "core dumped", NULL};
+static const char *const crashes[] = {"segmentation fault", "segfault",  "core dumped",
+                                      "traceback",          "mpi_abort", NULL};
 
 bool br_says_failure(const char *text)
 {
