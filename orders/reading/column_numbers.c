@@ -184,7 +184,8 @@ static int power_of_sides(const char *text)
 static int power_of_all(const struct br_roles *r, size_t column)
 {
     const struct br_role_column *c = &r->column[column];
-    int all = br_odds(c, br_resolution_column_find("n")) >= 2 &&
+    const double side = br_odds(c, br_resolution_column_find("n")); /* more: "nx", "samples" */
+    int all = side >= 2 && side <= BR_USUAL_NAME &&
                       br_odds(c, br_resolution_column_find("cells")) < BR_USUAL_NAME
                   ? 0
                   : 1;

@@ -479,7 +479,9 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
         return ask(t, best, second, err);
     const double lead = second ? best->odds - second->odds : INFINITY;
     best = plainest(t, best);
-    if (lead < sure_lead || (best->contradicts_rates && !by_hand))
+    const struct br_role_column *column = &r->column[best->size.column];
+    const bool only_sides = column->of_sides && column->named <= BR_ANY_NAME; /* of a matrix? */
+    if (lead < sure_lead || ((best->contradicts_rates || only_sides) && !by_hand))
         assume(t, best, lead < 9 ? second : NULL);
     r->size[t->axis] = best->size;
     r->log_z[t->axis] = best->log_z;

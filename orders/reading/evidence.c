@@ -149,6 +149,22 @@ static bool has_ratios(const struct view *v, const struct br_role_column *c)
     return false;
 }
 
+/* Whether the table has the rates of a column, within their digits: it has errors. */
+static bool has_rates(const struct view *v, size_t column)
+{
+    const enum br_kind kind = v->roles->column[column].kind;
+    bool has = false;
+    for (size_t i = 0; i < v->roles->columns && !has; i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        if (c->kind != BR_KIND_RATE || !c->name || c->role == BR_ROLE_CASE ||
+            (kind != BR_KIND_UNKNOWN && kind != BR_KIND_ERROR))
+            continue;
+        const struct residual found = compare_column(v, c, column);
+        has = found.compared > 1 && found.worst <= 0 && found.whole <= 0.006 && c->least >= 0;
+    }
+    return has;
+}
+
 static void find_rates(struct view *v)
 {
     v->rates.all = v->rates.exact = v->rates.near = true;
@@ -531,6 +547,7 @@ double br_evidence_of_errors(const struct br_roles *roles, const struct br_candi
         {hardly_changes(c), -2.5},                                /* it hardly changes */
         {!named && is_even(&v, column), -4},                      /* it is a parameter */
         {!named && falls_less(roles, c), -3},                     /* it is a value beside errors */
+        {has_rates(&v, column), 6},                               /* the table has its rates */
         {has_a_limit, -4},             /* it is a coefficient, and does not fall far */
         {c->least < 0 && !named, -9},  /* it has both signs */
         {c->numbers <= c->words, -99}, /* it has words */

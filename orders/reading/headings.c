@@ -131,8 +131,10 @@ static enum br_status name_column(struct br_roles *r, size_t i, struct br_error 
 {
     struct br_role_column *c = &r->column[i];
     c->shown = r->fields->heading ? r->fields->heading[i] : NULL;
-    if (!c->shown)
+    if (!c->shown || !*c->shown) {
+        c->shown = NULL;
         return BR_OK;
+    }
     const size_t digits = strspn(c->shown, "0123456789"); /* gnuplot: "1:n" */
     const bool counted = digits && c->shown[digits] == ':' && c->shown[digits + 1];
     const char *text = c->shown + (counted ? digits + 1 : 0);
