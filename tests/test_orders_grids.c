@@ -388,6 +388,15 @@ TEST(test_two_diagonals)
     }
 }
 
+/* Three cells, of h = 0.1 and 0.025 and three steps: what the error in k makes of them alone has a
+ * narrow interval, without the true order, 1. */
+TEST(test_fewer_cells_than_unknowns)
+{
+    find("N,steps,l2\n10,80,3.15650e-01\n40,20,1.16436e+00\n10,40,6.05102e-01\n", NULL);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        assert_true(isnan(found.orders.of[0].answer[axis].order.value));
+}
+
 /* The limit of a value of h and k is that of both; one direction alone ends beside it. */
 TEST(test_limit_of_a_grid)
 {
