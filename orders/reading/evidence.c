@@ -406,25 +406,21 @@ static bool has_a_second(const struct view *v)
 static bool has_root_on_a_line(const struct view *v, size_t column, double dimension)
 {
     static const double little = 0.005;
-    const size_t *const row = v->sorted;
     const double *const n = own(v)->number, *const count = v->roles->column[column].number;
-    size_t last = 0;
-    while (row[last] != BR_NO_ROW && row[last + 1] != BR_NO_ROW)
-        last++;
-    bool is = last > 1;
-    const double first = is ? pow(count[row[0]], 1 / dimension) : 0,
-                 slope = is ? (pow(count[row[last]], 1 / dimension) - first) /
-                                  (n[row[last]] - n[row[0]])
-                            : 0;
-    for (size_t i = 1; i < last && is; i++) {
-        const double root = pow(count[row[i]], 1 / dimension);
-        is = fabs(root - first - slope * (n[row[i]] - n[row[0]])) <= little * root;
+    double first = NAN, slope = NAN;
+    bool is = v->sorted[0] != BR_NO_ROW && v->sorted[1] != BR_NO_ROW;
+    size_t i = 0;
+    for (; v->sorted[i] != BR_NO_ROW && is; i++) {
+        const double root = pow(count[v->sorted[i]], 1 / dimension);
+        const double along = n[v->sorted[i]] - n[v->sorted[0]];
+        first = i == 0 ? root : first;
+        slope = i == 1 ? (root - first) / along : slope;
+        is = i < 2 || fabs(root - first - slope * along) <= little * root;
     }
-    return is && slope > 0;
+    return is && i > 2 && slope > 0;
 }
 
-/* Whether unknowns or cells are those of a mesh of so many along each side: (n + 1)^2, (2n + 1)^3
- */
+/* Whether unknowns or cells are of a mesh of so many along each side: (n + 1)^2, (2n + 1)^3. */
 static bool counts_a_mesh(const struct view *v)
 {
     const struct br_resolution_column *s = v->candidate->size.states;
@@ -435,7 +431,7 @@ static bool counts_a_mesh(const struct view *v)
         const struct br_role_column *c = &v->roles->column[i];
         const bool named = br_odds(c, br_resolution_column_find("dofs")) >= BR_USUAL_NAME ||
                            br_odds(c, br_resolution_column_find("cells")) >= BR_USUAL_NAME;
-        for (int d = 1; d <= 3 && named && i != v->candidate->size.column && !counts; d++)
+        for (int d = 2; d <= 3 && named && i != v->candidate->size.column && !counts; d++)
             counts = has_root_on_a_line(v, i, d);
     }
     return counts;

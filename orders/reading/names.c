@@ -63,7 +63,8 @@ static const struct {
      " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
      "poc ordre ordnung ordem orden "},
     {BR_KIND_FACTOR,
-     " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "},
+     " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "
+     "stride "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
      "setup rhs solve solver assemble assembly mb gb mib gib nnz nonzeros threads ranks procs cores "

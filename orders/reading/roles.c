@@ -224,14 +224,12 @@ static size_t find_of(const struct br_roles *r, size_t deviations)
     return count == 1 ? found : BR_NO_ROW;
 }
 
-/* Whether a column is that power of the size which its name says, "h^2" beside h, or a whole
- * multiple of it, as a stride is. */
+/* Whether a column is that power of the size which its name says: "h^2" beside h. */
 static bool is_power_of_size(const struct br_roles *r, size_t i)
 {
     char base[20];
     const struct br_role_column *c = &r->column[i];
-    const bool is_count = c->is_whole && c->kind == BR_KIND_UNKNOWN && c->role == BR_ROLE_ERROR;
-    const int power = c->by_hand || !c->name ? 0 : is_count ? 1 : br_power_in(c->name, base);
+    const int power = c->name && !c->by_hand ? br_power_in(c->name, base) : 0;
     for (int axis = 0; power && axis < BR_AXES; axis++) {
         const struct br_resolution_column *size = br_resolution_column_find(axis ? "dt" : "h");
         double low = INFINITY, high = -INFINITY;
@@ -240,8 +238,7 @@ static bool is_power_of_size(const struct br_roles *r, size_t i)
             low = fmin(low, off); /* that of a gap is none */
             high = fmax(high, off);
         }
-        if ((is_count || br_name_odds(base, NULL, size) >= BR_USUAL_NAME) && high >= low &&
-            high - low <= 0.02)
+        if (br_name_odds(base, NULL, size) >= BR_USUAL_NAME && high - low <= 0.02)
             return true;
     }
     return false;
@@ -283,7 +280,6 @@ static const char *why_idle(const struct br_roles *r, const struct br_candidate 
            : errors && br_is_residual(c->name) ? "a residual: --error, if it is studied"
            : has_magnitudes(r, i)              ? "an error with its sign"
            : is_predicted(r, i)                ? "what is expected of another column"
-           : is_power_of_size(r, i)            ? "another size"
            : c->most <= fmin(of_round_off, small * most) && !br_evidence_falls(r, over, sorted, i)
                ? "round-off beside the errors"
                : NULL;
