@@ -439,3 +439,12 @@ TEST(test_three_sizes_of_a_logarithm)
     if (br_order_determined(order) && order->high < 1.5)
         fail_msg("the order is 1.5, found %g to %g", order->low, order->high);
 }
+
+/* Three rows, of which no line has three: two constants and two orders are more unknowns. */
+TEST(test_fewer_rows_than_unknowns)
+{
+    find("n,dt,l2\n50,.002,7e-4\n60,.002,5e-4\n100,.001,2e-4\n", NULL);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (!isnan(found.orders.of[0].answer[axis].order.value))
+            fail_msg("3 rows gave an order along axis %d", axis);
+}
