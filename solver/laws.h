@@ -52,8 +52,8 @@ double br_contact_closed_force(const struct br_contact *contact,
 
 /* ---- friction ---- */
 
-/* A law of friction. All of the solver and of study/ asks here; judges have its bound once more, in
- * tables of their own, and refuse a law that is not in them. */
+/* A law of friction. All of the solver and of study/ asks here; references have its bound once
+ * more, in tables of their own, and refuse a law that is not in them. */
 struct br_friction_model {
     const char *name;  /* in scenes */
     const char *title; /* in a sentence */

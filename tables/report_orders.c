@@ -112,12 +112,15 @@ static void say_orders(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const bool joint = br_joint_describes(&of->joint);
+    const char *said = NULL; /* of both axes at once */
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_orders_line *line = br_orders_finest(of, (enum br_axis)axis);
         const struct br_orders_answer *answer = &of->answer[axis];
-        if (answer->open && isnan(answer->order.value))
-            br_put_item(d, "%s", answer->open);
-        else if (line || joint)
+        if (answer->open && isnan(answer->order.value)) {
+            if (answer->open != said)
+                br_put_item(d, "%s", answer->open);
+            said = answer->open;
+        } else if (line || joint)
             say_order(d, o, of, line, (enum br_axis)axis);
     }
     if (joint)

@@ -352,6 +352,8 @@ static void fit_all(struct br_joint_search *s, struct br_point *point, struct br
     flag_cells(s, point);
 }
 
+enum { UNKNOWNS = 4 /* a constant and an order for each axis */ };
+
 enum br_status br_joint_fit_solve(struct br_point *point, size_t count, bool any_model,
                                   const struct br_observer *observer, struct br_joint_fit *fit,
                                   struct br_error *err)
@@ -361,7 +363,7 @@ enum br_status br_joint_fit_solve(struct br_point *point, size_t count, bool any
                                 .all = {.count = count, .priors = any_model, .observer = observer}};
     *fit = nothing_fitted(count);
     const enum br_status status = make_room(&s) ? BR_OK : br_no_memory(err, "the fits");
-    if (!status && count > 0)
+    if (!status && count >= UNKNOWNS)
         fit_all(&s, point, fit);
     free(s.all.cell);
     free(s.all.size[0]);

@@ -438,14 +438,10 @@ static void leave_out_far(struct br_joint_search *s)
         add_window(s, (struct br_joint_window){.far = true});
 }
 
-/* All windows: the first has all cells. Too few for a power of each axis do not rule out that the
- * other axis has a part in the errors. */
+/* All windows: the first has all cells. */
 static void search_all(struct br_joint_search *s)
 {
     static const size_t lost[][BR_AXES] = {{1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}};
-    enum { LEAST = 2 * BR_AXES + 1 };
-    if (s->any_model && s->all.count < LEAST)
-        return;
     add_window(s, (struct br_joint_window){0});
     search_window(s, 0);
     if (!s->any_model || s->count == 0)

@@ -418,6 +418,41 @@ static bool has_a_second(const struct view *v)
     return 0;
 }
 
+/* Whether the root of a column is a line over the sizes of the candidate. */
+static bool has_root_on_a_line(const struct view *v, size_t column, double dimension)
+{
+    static const double little = 0.005;
+    const double *const n = own(v)->number, *const count = v->roles->column[column].number;
+    double first = NAN, slope = NAN;
+    bool is = v->sorted[0] != BR_NO_ROW && v->sorted[1] != BR_NO_ROW;
+    size_t i = 0;
+    for (; v->sorted[i] != BR_NO_ROW && is; i++) {
+        const double root = pow(count[v->sorted[i]], 1 / dimension);
+        const double along = n[v->sorted[i]] - n[v->sorted[0]];
+        first = i == 0 ? root : first;
+        slope = i == 1 ? (root - first) / along : slope;
+        is = i < 2 || fabs(root - first - slope * along) <= little * root;
+    }
+    return is && i > 2 && slope > 0;
+}
+
+/* Whether unknowns or cells are of a mesh of so many along each side: (n + 1)^2, (2n + 1)^3. */
+static bool counts_a_mesh(const struct view *v)
+{
+    const struct br_resolution_column *s = v->candidate->size.states;
+    bool counts = false;
+    if (s->is_size || s->is_power || s->is_volume || s->axis != BR_AXIS_SPACE)
+        return false;
+    for (size_t i = 0; i < v->roles->columns && !counts; i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        const bool named = br_odds(c, br_resolution_column_find("dofs")) >= BR_USUAL_NAME ||
+                           br_odds(c, br_resolution_column_find("cells")) >= BR_USUAL_NAME;
+        for (int d = 2; d <= 3 && named && i != v->candidate->size.column && !counts; d++)
+            counts = has_root_on_a_line(v, i, d);
+    }
+    return counts;
+}
+
 /* Unknowns and cells, beside a column that is called h, n or level; a level beside an h that is
  * almost its. */
 static bool is_beside_a_size(const struct view *v)
@@ -506,11 +541,11 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *candid
         {plane, 1.5},                 /* most meshes with unknowns are 2-D */
         {many, -3},                   /* few meshes are 1-D and have so many cells */
         {falls_by(&v, log(2)), 0.75}, /* its sizes halve */
-        {has_a_second(&v), 3},        /* another column states the same sizes */
-        {is_beside_a_size(&v), -4},   /* another column is called h, n or level */
-        {some_fall(&v), 0.5},         /* something falls with its sizes */
-        {grow, -3},                   /* all that may be errors grows where its sizes fall */
-        {fractions, -3},              /* a count is whole */
+        {has_a_second(&v) || counts_a_mesh(&v), 3}, /* another column states the same sizes */
+        {is_beside_a_size(&v), -4},                 /* another column is called h, n or level */
+        {some_fall(&v), 0.5},                       /* something falls with its sizes */
+        {grow, -3},      /* all that may be errors grows where its sizes fall */
+        {fractions, -3}, /* a count is whole */
     };
     candidate->odds = 0;
     for (size_t i = 0; i < sizeof evidence / sizeof *evidence; i++)

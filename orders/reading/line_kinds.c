@@ -246,6 +246,15 @@ static bool is_stated_in(const struct layout *l, const struct row *r)
     return all;
 }
 
+/* Whether a size may be one of a run: above 0, or level 0 with a number beside it. */
+static bool may_be_size(const struct layout *l, double size)
+{
+    size_t stated = 0;
+    for (size_t c = 0; c < l->width; c++)
+        stated += l->field[c] != NULL;
+    return size > 0 || (size == 0 && stated > 1);
+}
+
 /* Whether no row has what a line states; *follows (out): its size continues those of the rows. */
 static bool is_further(const struct layout *l, size_t line, size_t column, bool *follows)
 {
@@ -260,7 +269,7 @@ static bool is_further(const struct layout *l, size_t line, size_t column, bool 
         after = i > line && isnan(after) ? row : after;
         last = row;
     }
-    const bool reads = is_number(l, l->field[column], &size) && size > 0;
+    const bool reads = is_number(l, l->field[column], &size) && may_be_size(l, size);
     const double up = isnan(after) ? before - first : isnan(before) ? last - after : after - before;
     *follows = !((size - before) * up <= 0) && !((after - size) * up <= 0);
     return reads;

@@ -19,8 +19,8 @@ static const struct {
     {"h", 5,
      " h dx dy \xce\x94x \xe2\x88\x86x deltax meshsize meshwidth elementsize elsize cellsize gridspacing meshspacing "
      "spacing hmax maxh hmin minh hmean havg hx hy meshh gridwidth cellwidth "
-     "hsize steph stepwidth elementlength lc gitterweite maschenweite "},
-    {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh "},
+     "hsize steph stepwidth elementlength lc gitterweite maschenweite 步长h 网格尺寸 "},
+    {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh 步长 "},
     {"n", 5,
      " nx ny cellsperside elementsperside inverseh invh hinv invdx 1overh gridresolution nxny "
      "numel1d cellsperdim samples nsamples samplesize paths npaths "},
@@ -50,7 +50,7 @@ static const struct {
     {"k", 4, " k "},
     {"dt", 4,
      " dt \xce\x94t \xe2\x88\x86t deltat timestep timestepsize stepsize tau \xcf\x84 timestepdt maxdt dtmax "
-     "deltatime timeincrement timestepwidth timesteplength "},
+     "deltatime timeincrement timestepwidth timesteplength 步长 时间步长 "},
     {"steps", 4, " steps nt nsteps timesteps numsteps ntimesteps numberofsteps stepcount "},
 };
 
@@ -63,7 +63,8 @@ static const struct {
      " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
      "poc ordre ordnung ordem orden "},
     {BR_KIND_FACTOR,
-     " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "},
+     " ratio ratios reduction factor factors quotient gci asymptotic extrapolated extrapolation "
+     "stride "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
      "setup rhs solve solver assemble assembly mb gb mib gib nnz nonzeros threads ranks procs cores "
@@ -470,6 +471,11 @@ bool br_says_error(const char *name)
                           "erro defect semi ") ||
            (*name == 'e' && !isalpha((unsigned char)name[1])) || strcmp(name, "E") == 0 ||
            strchr(name, '-');
+}
+
+bool br_is_prediction(const char *name)
+{
+    return has_word(name, " expected predicted theoretical ideal ");
 }
 
 bool br_is_residual(const char *name)

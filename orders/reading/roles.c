@@ -270,6 +270,19 @@ static bool is_round_off(const struct br_roles *r, const struct br_candidate *ov
             (c->most <= (is_error ? always : perhaps) && !br_evidence_falls(r, over, sorted, i)));
 }
 
+/* Whether a column has the name of another one and says that it is what is expected of it. */
+static bool is_predicted(const struct br_roles *r, size_t i)
+{
+    bool is = false;
+    const char *const name = r->column[i].name;
+    for (size_t k = 0; k < r->columns && !is && br_is_prediction(name); k++) {
+        const char *const other = r->column[k].name;
+        is = k != i && other && br_role_is_studied(&r->column[k]) && !br_is_prediction(other) &&
+             strncmp(name, other, strlen(other)) == 0;
+    }
+    return is;
+}
+
 /* Why a column of errors shows no order; NULL: it may. most: of the greatest error. */
 static const char *why_idle(const struct br_roles *r, const struct br_candidate *over,
                             const size_t *sorted, size_t i, double most, bool errors)
@@ -279,6 +292,7 @@ static const char *why_idle(const struct br_roles *r, const struct br_candidate 
            : !(c->least < c->most)                  ? "one number only"
            : errors && br_is_residual(c->name)      ? "a residual: --error, if it is studied"
            : has_magnitudes(r, i)                   ? "an error with its sign"
+           : is_predicted(r, i)                     ? "what is expected of another column"
            : is_round_off(r, over, sorted, i, most) ? "round-off beside the errors"
                                                     : NULL;
 }

@@ -45,6 +45,7 @@ int br_power_in(const char *name, char base[20]);
 /* Whether a name says an error, not only a norm: "L2 error", "rmse", "u - u_h"; not "L2(u)". */
 bool br_says_error(const char *name);
 
+bool br_is_prediction(const char *name); /* what another column should be: "L2 expected" */
 bool br_is_residual(const char *name); /* and not also an error's */
 
 /* Whether a name is that of a coefficient, which has a limit: "C_D", "cl", "drag". */
