@@ -46,7 +46,7 @@ int br_power_in(const char *name, char base[20]);
 bool br_says_error(const char *name);
 
 bool br_is_prediction(const char *name); /* what another column should be: "L2 expected" */
-bool br_is_residual(const char *name); /* and not also an error's */
+bool br_is_residual(const char *name);   /* and not also an error's */
 
 /* Whether a name is that of a coefficient, which has a limit: "C_D", "cl", "drag". */
 bool br_is_coefficient(const char *name);
