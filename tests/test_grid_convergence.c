@@ -259,6 +259,29 @@ TEST(test_sequence_kinds)
     }
 }
 
+/* What is left where values begin to stay lies ahead, in the direction of their last change: the
+ * same whether they fall or rise. */
+TEST(test_values_that_stay)
+{
+    static const double h[] = {16, 8, 4, 2, 1}, falling[] = {1.1, 1.05, 1.02, 1.02, 1.02};
+    double ahead[2], back[2];
+    for (int rises = 0; rises < 2; rises++) {
+        double value[5];
+        for (size_t i = 0; i < 5; i++)
+            value[i] = rises ? -falling[i] : falling[i];
+        const struct br_grid_limit limit = limit_of(h, value, 5);
+        assert_int_equal(limit.sequence, BR_MONOTONE_CONVERGENCE);
+        CLOSE(limit.value.value, value[4], 0);
+        ahead[rises] = rises ? limit.value.high - value[4] : value[4] - limit.value.low;
+        back[rises] = rises ? value[4] - limit.value.low : limit.value.high - value[4];
+    }
+    if (!(ahead[0] >= 0.03)) /* the last change */
+        fail_msg("%g is left, expected at least 0.03", ahead[0]);
+    CLOSE(ahead[1], ahead[0], 1e-12);
+    CLOSE(back[0], 0.003, 1e-12); /* two changes may have passed the limit, by a tenth */
+    CLOSE(back[1], 0.003, 1e-12);
+}
+
 /* A small power converges; the inverse of a logarithm, or of its square, does, too, and no table
  * shows where to. */
 TEST(test_small_orders)

@@ -49,14 +49,26 @@ static bool are_constant(const struct br_point *v, size_t count)
     return true;
 }
 
-/* +1: the differences that count have one sign; -1: their signs alternate; 0: neither. */
-static int turns_of(const struct br_point *v, size_t first, size_t last)
+/* Where values begin to stay, to their digits, up to the finest one. */
+static size_t end_of(const struct br_point *v, size_t count)
+{
+    size_t end = count - 1;
+    while (end > 1 && v[end].value == v[end - 1].value)
+        end--;
+    return end;
+}
+
+/* +1: the differences from `first` on have one sign; -1: their signs alternate; 0: neither. Zeros
+ * have none. */
+static int turns_of(const struct br_point *v, size_t first, size_t count)
 {
     size_t same = 0, turns = 0;
-    for (size_t i = first; i < last; i++) {
-        const double a = v[i + 1].value - v[i].value, b = v[i + 2].value - v[i + 1].value;
-        same += a * b > 0 || (a > 0) == (b > 0);
-        turns += (a > 0) != (b > 0);
+    double before = 0;
+    for (size_t i = first; i + 1 < count; i++) {
+        const double by = v[i + 1].value - v[i].value;
+        same += before * by > 0;
+        turns += before * by < 0;
+        before = by != 0 ? by : before;
     }
     return turns == 0 ? 1 : same == 0 ? -1 : 0;
 }
@@ -86,12 +98,14 @@ static double back(double ratio, double order)
 /* The limit from what is left at the finest value, in the direction of its difference; of values
  * that alternate it lies on the way back, of others on either side. Three values show no order:
  * they may have passed the limit, by a tenth of the difference, and those that turn may have any.
- */
+ * Values that stay at the end have the finest one as their limit; by as much as is left where they
+ * begin to stay they may be off. */
 static struct br_estimate limit_of(const struct br_point *v, size_t count,
                                    const struct br_line_order *found, int turns)
 {
     static const double passed = 0.1;
-    const struct br_point *finest = &v[count - 1];
+    const size_t end = end_of(v, count);
+    const struct br_point *finest = &v[end];
     const double step = finest->value - finest[-1].value, sign = step < 0 ? -1 : 1;
     const double own = finest->half + finest->rounding;
     const bool few = isnan(found->order.value);
@@ -108,6 +122,11 @@ static struct br_estimate limit_of(const struct br_point *v, size_t count,
             high = fmax(fmax(fabs(high), fabs(low)), fabs(v[i].value - finest->value));
         low = -high;
         value = 0;
+    }
+    if (end + 1 < count) {
+        value = 0;
+        low = fmin(low, 0);
+        high = fmax(high, 0);
     }
     return (struct br_estimate){finest->value + sign * value,
                                 finest->value + fmin(sign * low, sign * high) - own,
@@ -147,7 +166,7 @@ enum br_status br_limit_of_values(const struct br_point *v, size_t count,
     }
     if (find_order(v, count, &found, err))
         return err->status;
-    const int turns = turns_of(v, found.first, count - 2);
+    const int turns = turns_of(v, found.first, count);
     /* The scatter of means is known, which the mixture takes from few differences. */
     const double sure = half > 0 ? 0.5 : 0.9;
     limit->sequence = sequence_of(&found, turns, sure);
