@@ -135,9 +135,10 @@ class Case:
 
     @staticmethod
     def listing(place):
-        """Finished runs that are cached have names of hexadecimal digits, and may be there or not."""
+        """Finished runs that are cached have names of hexadecimal digits, and may be there or not; so may the
+        hidden file of one that was being written when the program was killed."""
         names = {str(p.relative_to(place)) for p in place.rglob("*") if not p.is_dir()}
-        return {n for n in names if not re.fullmatch("set/.cache/[0-9a-f]{64}", n)}
+        return {n for n in names if not re.fullmatch(r"set/\.cache/([0-9a-f]{64}|\.[0-9a-f]{64}\.\d+)", n)}
 
     def is_like(self, place, wanted, names):
         """Whether files are those of a run: old ones to the byte, new ones in their letters, if all runs
