@@ -12,7 +12,9 @@
 #include "tests/test.h"
 
 /* Of the last call of a test that failed. */
-extern _Thread_local struct br_error err;
+/* Its symbol is another one than that of the C library's function, which gold takes for the same.
+ */
+extern _Thread_local struct br_error err __asm__("br_test_err");
 
 /* |actual - expected| <= tolerance; `what` goes into the message. */
 #define CLOSE(actual, expected, tolerance) \
